@@ -2,10 +2,12 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include <assimp/IOStream.hpp>
 
 #include "base/folders.h"
+#include "base/text.h"
 #include "formats/mesh_folder_internal.h"
 
 namespace rex::mesh {
@@ -46,6 +48,18 @@ class Bytes : public Assimp::IOStream {
   std::size_t at_ = 0;
 };
 
+// The names in lines such as "newmtl steel".
+void addMaterials(const std::string& library, std::set<std::string>& names) {
+  constexpr std::string_view kBegin = "newmtl", kBlanks = " \t";
+  std::istringstream lines(library);
+  for (std::string line; std::getline(lines, line);) {
+    std::string_view rest = line;  // assimp knows none that is indented
+    if (!rest.starts_with(kBegin)) continue;
+    rest.remove_prefix(kBegin.size());
+    if (!rest.empty() && kBlanks.find(rest.front()) != kBlanks.npos) names.emplace(trimmed(rest));
+  }
+}
+
 }  // namespace
 
 bool MeshFolder::Exists(const char* name) const { return name == name_ || !find(name).empty(); }
@@ -53,6 +67,7 @@ bool MeshFolder::Exists(const char* name) const { return name == name_ || !find(
 Assimp::IOStream* MeshFolder::Open(const char* name, const char*) {
   if (name == name_) return new Bytes(bytes_);
   std::optional<std::string> content = contentOf(name);
+  if (content && endingOf(name) == ".mtl") addMaterials(*content, materials_);
   return content ? new Bytes(*std::move(content)) : nullptr;
 }
 

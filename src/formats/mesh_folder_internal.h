@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,9 @@ class MeshFolder : public Assimp::IOSystem {
   [[nodiscard]] std::optional<std::string> contentOf(const char* name) const;
   Assimp::IOStream* Open(const char* name, const char* mode) override;
   void Close(Assimp::IOStream* stream) override;
+  /// The materials that the libraries of an OBJ file define, as far as these were opened. assimp makes up
+  /// those that it does not find.
+  [[nodiscard]] const std::set<std::string>& materials() const { return materials_; }
 
  private:
   [[nodiscard]] std::filesystem::path find(const char* name) const;
@@ -30,6 +34,7 @@ class MeshFolder : public Assimp::IOSystem {
   const std::string& name_;
   std::string_view bytes_;
   std::filesystem::path folder_;
+  std::set<std::string> materials_;
 };
 
 }  // namespace rex::mesh

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <type_traits>
 
@@ -55,12 +56,14 @@ float fromLinearLight(float c) {
   return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
 }
 
-// Empty for the default material, which stands for no material.
-std::optional<Eigen::Vector4f> colorOf(const aiMaterial& material, bool linearLight) {
+// Empty for the default material, which stands for no material, and for others than the `known`, if given.
+std::optional<Eigen::Vector4f> colorOf(const aiMaterial& material, bool linearLight,
+                                       const std::set<std::string>* known) {
   aiString name;
   aiColor4D c;
   if (material.Get(AI_MATKEY_NAME, name) != AI_SUCCESS || name == aiString(AI_DEFAULT_MATERIAL_NAME))
     return {};
+  if (known != nullptr && !known->contains(name.C_Str())) return {};
   if (material.Get(AI_MATKEY_BASE_COLOR, c) != AI_SUCCESS) {
     if (material.Get(AI_MATKEY_COLOR_DIFFUSE, c) != AI_SUCCESS) return {};
     material.Get(AI_MATKEY_OPACITY, c.a);
@@ -165,9 +168,10 @@ class Textures {
 class Collector {
  public:
   // Leaves out textures if `textures` is null.
-  Collector(const std::string& name, const aiScene& scene, Textures* textures)
+  Collector(const std::string& name, const aiScene& scene, const MeshFolder& folder, Textures* textures)
       : name_(name), scene_(scene), textures_(textures) {
     const std::string ending = endingOf(name);
+    if (ending == ".obj") materials_ = &folder.materials();
     linearLight_ = ending == ".gltf" || ending == ".glb";
     addNodes(linearLight_ || ending == ".dae" ? fromYUp() : Matrix4d(Matrix4d::Identity()));
   }
@@ -206,7 +210,7 @@ class Collector {
     requireCount(first + mesh.mNumVertices, name_);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) addVertex(mesh.mVertices[i], placed);
     const aiMaterial& material = *scene_.mMaterials[mesh.mMaterialIndex];
-    TriangleMesh::Part part{.color = colorOf(material, linearLight_),
+    TriangleMesh::Part part{.color = colorOf(material, linearLight_, materials_),
                             .firstTriangle = static_cast<Index>(triangles_.size())};
     if (textures_ != nullptr) paintPart(part, mesh, material);
     const bool mirrored = placed.topLeftCorner<3, 3>().determinant() < 0;
@@ -246,6 +250,7 @@ class Collector {
   const std::string& name_;
   const aiScene& scene_;
   Textures* textures_;
+  const std::set<std::string>* materials_ = nullptr;  // of OBJ files, those whose library is there
   bool linearLight_;  // glTF counts colours in light, all others as a screen shows them
   std::vector<Eigen::Vector3f> positions_;
   std::vector<TriangleMesh::Triangle> triangles_;
@@ -283,9 +288,9 @@ TexturedMesh readByAssimp(std::string_view bytes, const std::string& name,
   }
   if (scene == nullptr) fail(name, "cannot read the mesh file", importer.GetErrorString(), "a mesh");
   const Eigen::Matrix3d turn = turnOf(name, *scene);
-  if (!textures) return {Collector(name, *scene, nullptr).mesh(), {}, turn};
+  if (!textures) return {Collector(name, *scene, *files, nullptr).mesh(), {}, turn};
   Textures painted(*scene, *files);
-  TriangleMesh mesh = Collector(name, *scene, &painted).mesh();
+  TriangleMesh mesh = Collector(name, *scene, *files, &painted).mesh();
   return {std::move(mesh), painted.takeMissing(), turn};
 }
 

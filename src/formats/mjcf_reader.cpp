@@ -302,7 +302,7 @@ SceneFile readModelFile(std::string_view text, const std::string& name, const As
     Compiler compiler;
     BodyTree tree = readModel(files, name, compiler);
     scene.spec = std::move(tree.spec);
-    if (assets) loadMeshes(scene, *assets, options);
+    if (assets) loadMeshes(scene, *assets, options, MeshMaterials::kIgnored);
     tree.spec = std::move(scene.spec);
     fitGeoms(tree, compiler, files.main());
     setMasses(tree, compiler, files.main());

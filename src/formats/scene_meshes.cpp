@@ -27,6 +27,9 @@ namespace rex {
 /// The same mesh with an alpha of 1 where it is 0.
 [[nodiscard]] TriangleMesh withoutInvisibleParts(const TriangleMesh& mesh);
 
+/// The same mesh in one part, without a colour or a texture.
+[[nodiscard]] TriangleMesh withoutColors(const TriangleMesh& mesh);
+
 namespace {
 
 bool isInvisible(const TriangleMesh::Part& part) { return part.color && (*part.color)[3] == 0; }
@@ -46,6 +49,12 @@ TriangleMesh withoutInvisibleParts(const TriangleMesh& mesh) {
           {mesh.triangles().begin(), mesh.triangles().end()},
           std::move(parts),
           mesh.paint()};
+}
+
+TriangleMesh withoutColors(const TriangleMesh& mesh) {
+  return {{mesh.positions().begin(), mesh.positions().end()},
+          {mesh.normals().begin(), mesh.normals().end()},
+          {mesh.triangles().begin(), mesh.triangles().end()}};
 }
 
 namespace {
@@ -157,12 +166,13 @@ class Turned {
 
 class Loader {
  public:
-  Loader(const Assets& assets, const ReadOptions& options, Diagnostics& notes)
+  Loader(const Assets& assets, const ReadOptions& options, MeshMaterials materials, Diagnostics& notes)
       : assets_(assets),
         allowMissing_(options.allowMissingMeshes),
         strict_(options.strict),
         textures_(options.textures),
         upAxis_(options.upAxis),
+        materials_(materials),
         notes_(notes) {}
 
   void load(ShapeSpec& shape) {
@@ -261,7 +271,7 @@ class Loader {
   }
 
   TexturedMesh fromFile(const ShapeSpec& shape) {
-    TexturedMesh read = mesh::readFile(shape.meshPath, textures_);
+    TexturedMesh read = mesh::readFile(shape.meshPath, textures_ && materials_ == MeshMaterials::kUsed);
     if (!read.missing.empty()) {
       const std::size_t more = read.missing.size() - 1;
       notes_.push_back({shape.where,
@@ -285,6 +295,7 @@ class Loader {
   // MeshLab's "Tr 1" and Collada's transparency of 0 occur in files of robots that are meant to be visible:
   // some programs write opacity instead of transparency.
   TriangleMesh seen(const TriangleMesh& mesh, const ShapeSpec& shape) {
+    if (materials_ == MeshMaterials::kIgnored) return withoutColors(mesh);
     if (!hasInvisiblePart(mesh)) return mesh;
     const ErrorParts fault = {
         .what = "a material", .found = "full transparency", .wanted = "one that can be seen"};
@@ -310,6 +321,7 @@ class Loader {
   const Assets& assets_;
   bool allowMissing_, strict_, textures_;
   UpAxis upAxis_;
+  MeshMaterials materials_;
   Diagnostics& notes_;
   Missing missing_;
   FromAbove fromAbove_;
@@ -323,8 +335,8 @@ class Loader {
 
 }  // namespace
 
-void loadMeshes(SceneFile& scene, const Assets& assets, const ReadOptions& options) {
-  Loader loader(assets, options, scene.notes);
+void loadMeshes(SceneFile& scene, const Assets& assets, const ReadOptions& options, MeshMaterials materials) {
+  Loader loader(assets, options, materials, scene.notes);
   for (ShapeSpec& shape : scene.spec.worldShapes) loader.load(shape);
   for (BodySpec& body : scene.spec.bodies)
     for (ShapeSpec& shape : body.shapes) loader.load(shape);

@@ -5,6 +5,9 @@
 
 namespace rex {
 
+/// Whether materials in mesh files colour a mesh, or only the shape does, as in MuJoCo.
+enum class MeshMaterials { kUsed, kIgnored };
+
 /// Reads the missing meshes of all shapes that are described by one, from the files that `assets` finds,
 /// each once, and computes the hulls of shapes in contact. Throws Error with the position of the shape if
 /// it names no file, if assets.find(), readMesh(), scaledMesh() or convexHull() throws, and for more than
@@ -13,6 +16,7 @@ namespace rex {
 /// `meshMissing`, with one warning for each package or folder. Says how it reads Collada files with an up
 /// axis other than z, see ReadOptions::upAxis. Fully transparent materials become opaque,
 /// with one warning for each file, or are refused if `strict`.
-void loadMeshes(SceneFile& scene, const Assets& assets, const ReadOptions& options = {});
+void loadMeshes(SceneFile& scene, const Assets& assets, const ReadOptions& options = {},
+                MeshMaterials materials = MeshMaterials::kUsed);
 
 }  // namespace rex
