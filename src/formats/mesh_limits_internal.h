@@ -18,7 +18,7 @@ inline constexpr double kLargestCoordinate = 1e6;        ///< metres
 [[noreturn]] void fail(const std::string& name, std::string what, std::string found, std::string wanted = "",
                        std::vector<std::string> nearest = {});
 
-/// How large a file of this name may be, bytes: 32 MiB of STL, PLY and GLB, else 16 MiB, so that what
+/// How large a file of this name may be, bytes: 32 MiB of STL, PLY, GLB and MSH, else 16 MiB, so that what
 /// other programs write takes less than a second and 512 MB. Throws Error for an ending of no kind that rex
 /// reads.
 [[nodiscard]] std::size_t largestFile(const std::string& name);

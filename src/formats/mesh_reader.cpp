@@ -441,6 +441,7 @@ IsolationLimits limitsFor(std::size_t bytes, const std::string& name, bool textu
 
 TexturedMesh meshOf(std::string_view bytes, const std::string& name, const fs::path& folder, bool textures) {
   mesh::requireSize(bytes.size(), name);
+  if (endingOf(name) == ".msh") return {mesh::readMsh(bytes, name), {}};
   mesh::requireHarmless(bytes, name);
   return mesh::readIsolated(bytes, name, folder, limitsFor(bytes.size(), name, textures), textures);
 }

@@ -9,14 +9,14 @@
 
 namespace rex {
 
-/// Reads a mesh from an STL, OBJ (with its MTL), PLY, DAE, glTF, GLB or OFF file without scaling its
-/// lengths; scaledMesh() converts them to metres. The unit and up axis of a DAE file are respected, and
-/// glTF and GLB have y up; both are turned to z up. Nodes are placed by their transforms. Normals are
-/// computed as by weldedMesh(); those of the file are ignored. Materials become parts with their base
-/// colour, without textures (see readTexturedMesh()). A file without triangles gives its points. Files that
-/// it names are read from its folder or below.
+/// Reads a mesh from an STL, OBJ (with its MTL), PLY, DAE, glTF, GLB, OFF or MuJoCo's MSH file without
+/// scaling its lengths; scaledMesh() converts them to metres. The unit and up axis of a DAE file are
+/// respected, and glTF and GLB have y up; both are turned to z up. Nodes are placed by their transforms.
+/// Normals are computed as by weldedMesh(); those of the file are ignored. Materials become parts with their
+/// base colour, without textures (see readTexturedMesh()). A file without triangles gives its points. Files
+/// that it names are read from its folder or below.
 ///
-/// Throws Error naming the file if it is missing, of another kind, over 32 MiB (STL, PLY, GLB) or 16 MiB
+/// Throws Error naming the file if it is missing, of another kind, over 32 MiB (STL, PLY, GLB, MSH) or 16 MiB
 /// (others), or faulty; if it has numbers that are not finite or beyond 1e6, more than a million triangles,
 /// 2.1 million vertices, 1000 corners of a face or 5000 nested nodes (in glTF: nodes that have children);
 /// or if all its triangles have no area. Runs in a process of its own for at most 10 s and 1 GiB; throws

@@ -21,6 +21,10 @@ namespace rex::mesh {
                                         const std::filesystem::path& folder,
                                         const IsolationLimits& limits = {}, bool textures = false);
 
+/// The mesh of a binary file of MuJoCo; the hull of its points if it has no faces. Throws Error for a file
+/// that is not right to the byte.
+[[nodiscard]] TriangleMesh readMsh(std::string_view bytes, const std::string& name);
+
 /// As readMesh() or, with `textures`, readTexturedMesh(), with the turn of the mesh.
 [[nodiscard]] TexturedMesh readFile(const std::filesystem::path& file, bool textures);
 

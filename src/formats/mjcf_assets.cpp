@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "formats/mjcf_parts_internal.h"
+#include "formats/scaled_mesh.h"
 #include "formats/texture_reader_internal.h"
 #include "geometry/convex_hull.h"
 #include "geometry/welded_mesh.h"
@@ -22,11 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostHeightFields = 16;
 constexpr const char* kMeshInertias[] = {"convex", "exact", "legacy", "shell"};
-
-const Known& knownOfAsset() {
-  static const Known kKnown = {{}, {"include", "mesh", "material", "hfield"}, {"texture", "skin", "model"}};
-  return kKnown;
-}
 
 template <class Thing>
 void add(const Tag& tag, const std::string& name, const char* attribute, Thing thing,
@@ -50,6 +46,11 @@ void readMesh(const Styled& styled, const Compiler& compiler, MjcfAssets& assets
     if ((mesh.scale.array() == 0).any())
       giver.failAt("scale", xml::quoted(giver.text("scale")), "3 numbers that are not 0");
   }
+  mesh.X_SM = placeOfMesh(tag, mesh.scale);
+  if (TriangleMesh own = mesh.file.empty() ? meshInTag(tag) : TriangleMesh(); !own.isEmpty()) {
+    mesh.mesh = scaledMesh(own, mesh.scale, tag.nameIn("name"));
+    mesh.hull = convexHull(mesh.mesh);
+  }
   const Tag& giver = styled.giver("inertia");
   mesh.inertia = giver.has("inertia")
                      ? static_cast<MeshInertia>(
@@ -70,24 +71,6 @@ void readMaterial(const Styled& styled, MjcfAssets& assets) {
 
 const char* wordOf(MeshInertia inertia) { return kMeshInertias[static_cast<std::size_t>(inertia)]; }
 
-const Known& knownOfMesh() {
-  static const Known kKnown = {{"name", "class", "file", "scale", "inertia"},
-                               {},
-                               {"plugin"},
-                               {"content_type", "vertex", "normal", "texcoord", "face", "refpos", "refquat",
-                                "smoothnormal", "maxhullvert", "builtin", "params", "material"}};
-  return kKnown;
-}
-
-const Known& knownOfMaterial() {
-  static const Known kKnown = {{"name", "class", "rgba"},
-                               {},
-                               {"layer"},
-                               {"texture", "texrepeat", "texuniform", "emission", "specular", "shininess",
-                                "reflectance", "metallic", "roughness"}};
-  return kKnown;
-}
-
 std::optional<Eigen::Vector4d> colorOf(const Styled& styled) {
   const Tag* const giver = styled.giverOfText("rgba");
   if (!giver) return {};
@@ -100,7 +83,7 @@ std::optional<Eigen::Vector4d> colorOf(const Styled& styled) {
 
 void readAssets(const Tag& section, Files& files, const Defaults& defaults, const Compiler& compiler,
                 MjcfAssets& assets) {
-  for (const Tag& tag : files.children(section, knownOfAsset())) {
+  for (const Tag& tag : files.children(section, knownOf("asset"))) {
     if (tag.name() == "hfield") {
       if (assets.heightFields.size() == kMostHeightFields)
         tag.fail(tag.where(), "too many", "", fmt::format("at most {}", kMostHeightFields));
@@ -111,7 +94,7 @@ void readAssets(const Tag& section, Files& files, const Defaults& defaults, cons
     }
     const bool isMesh = tag.name() == "mesh";
     if (!isMesh && tag.name() != "material") continue;
-    tag.expect(isMesh ? knownOfMesh() : knownOfMaterial());
+    tag.expect(knownOf(tag.name()));
     const Styled styled(tag, defaults.named(tag, "class", defaults.main()),
                         isMesh ? Kind::kMesh : Kind::kMaterial);
     if (isMesh) {
@@ -288,9 +271,7 @@ Index blockOf(const Grid& grid) {
 }  // namespace
 
 HeightField readHeightField(const Tag& tag, const Files& files, const Compiler& compiler) {
-  static const Known kKnown = {
-      {"name", "file", "nrow", "ncol", "size", "elevation"}, {}, {}, {"content_type"}};
-  tag.expect(kKnown);
+  tag.expect(knownOf("hfield"));
   const Eigen::Vector4d size = tag.numbers("size", 4);
   if (!(size.minCoeff() > 0)) tag.failAt("size", xml::quoted(tag.text("size")), "4 lengths > 0");
   if (tag.has("file") && !files.areRead()) return {};

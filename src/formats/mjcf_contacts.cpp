@@ -75,7 +75,7 @@ void warnOf(const std::vector<const BodySpec*>& bodies, const char* what, const 
 
 // The geom that an attribute names.
 const GeomInTree& geomIn(const Tag& tag, const char* attribute, const BodyTree& tree) {
-  const std::string& name = tag.nameIn(attribute);
+  const std::string name = tree.seen(tag.nameIn(attribute), tree.geomOfName);
   if (const auto found = tree.geomOfName.find(name); found != tree.geomOfName.end()) return found->second;
   std::vector<std::string> known;
   for (const auto& [other, unused] : tree.geomOfName) known.push_back(other);
@@ -86,14 +86,11 @@ const GeomInTree& geomIn(const Tag& tag, const char* attribute, const BodyTree& 
 
 // <pair>: shapes of the same number may touch, and take part in contacts for that.
 void readPair(const Tag& tag, int number, BodyTree& tree) {
-  static const Known kKnown = {{"name", "class", "geom1", "geom2"},
-                               {},
-                               {},
-                               {"condim", "friction", "solref", "solreffriction", "solimp", "gap", "margin"}};
-  tag.expect(kKnown);
+  tag.expect(knownOf("pair"));
   const GeomInTree ends[] = {geomIn(tag, "geom1", tree), geomIn(tag, "geom2", tree)};
   for (const GeomInTree& end : ends)
-    if (end.count == 0) return tag.remark("a <pair> of a geom that is ignored is ignored, too");
+    if (end.count == 0)
+      return tag.remark("a <pair> of a geom that is ignored is ignored, too", Difference::kContact);
   for (const GeomInTree& end : ends) {
     std::vector<ShapeSpec>& shapes = tree.shapesOf(end.body);
     for (std::size_t i = end.first; i < end.first + end.count; ++i) {
@@ -110,31 +107,25 @@ void readPair(const Tag& tag, int number, BodyTree& tree) {
   }
 }
 
-const Known& knownOfContacts() {
-  static const Known kKnown = {{}, {"include", "exclude", "pair"}};
-  return kKnown;
-}
-
 }  // namespace
 
 void readContacts(const std::vector<Tag>& sections, Files& files, BodyTree& tree) {
-  static const Known kKnownOfExclude = {{"name", "class", "body1", "body2"}, {}};
   constexpr int kMostPairs = 4096;
   int pairs = 0;
-  for (const Tag& section : sections) {
-    for (const Tag& tag : files.children(section.of("<contact>"), knownOfContacts())) {
-      if (tag.name() == "pair") {
-        if (pairs == kMostPairs)
-          tag.fail(tag.where(), "too many <pair>", "", fmt::format("at most {}", kMostPairs));
-        readPair(tag, pairs++, tree);
-      }
-      if (tag.name() != "exclude") continue;
-      tag.expect(kKnownOfExclude);
-      const std::string &a = bodyIn(tag, "body1", tree), &b = bodyIn(tag, "body2", tree);
-      if (a == b) tag.fail(tag.where("body2"), "one body", xml::quoted(b), "two bodies");
-      tree.spec.collisionChoices.push_back({a, b, false, "exclude", tag.where()});
-    }
-  }
+  const auto addPair = [&](const Tag& tag) {
+    if (pairs == kMostPairs)
+      tag.fail(tag.where(), "too many <pair>", "", fmt::format("at most {}", kMostPairs));
+    readPair(tag, pairs++, tree);
+  };
+  const auto exclude = [&](const Tag& tag) {
+    tag.expect(knownOf("exclude"));
+    const std::string a = bodyIn(tag, "body1", tree), b = bodyIn(tag, "body2", tree);
+    if (a == b) tag.fail(tag.where("body2"), "one body", xml::quoted(b), "two bodies");
+    tree.spec.collisionChoices.push_back({a, b, false, "exclude", tag.where()});
+  };
+  for (const Tag& section : sections)
+    for (const Tag& tag : files.children(section.of("<contact>"), knownOf("contact")))
+      tree.forEachReplica(tag, [&] { tag.name() == "pair" ? addPair(tag) : exclude(tag); });
 }
 
 void noteUntouchable(BodyTree& tree, Notes& notes) {

@@ -16,29 +16,21 @@ constexpr std::size_t kDeepestClass = 16;
 constexpr std::size_t kMostGuesses = 1000;  // names among which a message looks for near ones
 constexpr const char* kMainClass = "main";
 
-const Known& knownOfDefault() {
-  static const Known kKnown = {
-      {"class"},
-      {"include", "default", "joint", "geom", "mesh", "material", "equality", "general", "motor", "position",
-       "velocity", "intvelocity", "damper", "cylinder"},
-      {"site", "camera", "light", "pair", "tendon", "muscle", "adhesion", "plugin"}};
-  return kKnown;
-}
-
 struct KindOfTag {
   Kind kind;
   const Known* known;
 };
 
 std::optional<KindOfTag> kindOf(const Tag& tag) {
-  if (tag.name() == "joint") return KindOfTag{Kind::kJoint, &knownOfJoint()};
-  if (tag.name() == "geom") return KindOfTag{Kind::kGeom, &knownOfGeom()};
-  if (tag.name() == "mesh") return KindOfTag{Kind::kMesh, &knownOfMesh()};
-  if (tag.name() == "material") return KindOfTag{Kind::kMaterial, &knownOfMaterial()};
-  if (tag.name() == "equality") return KindOfTag{Kind::kEquality, &knownOfEquality()};
-  const std::vector<std::string>& known = knownOfDefault().children;
-  const bool isActuator = std::find(known.begin() + 2, known.end(), tag.name()) != known.end();
-  if (isActuator) return KindOfTag{Kind::kActuator, &knownOfActuator()};
+  if (tag.name() == "joint") return KindOfTag{Kind::kJoint, &knownOf("joint")};
+  if (tag.name() == "geom") return KindOfTag{Kind::kGeom, &knownOf("geom")};
+  if (tag.name() == "mesh") return KindOfTag{Kind::kMesh, &knownOf("mesh")};
+  if (tag.name() == "material") return KindOfTag{Kind::kMaterial, &knownOf("material")};
+  if (tag.name() == "equality") return KindOfTag{Kind::kEquality, &knownOf("equality/joint")};
+  if (tag.name() == "tendon") return KindOfTag{Kind::kTendon, &knownOf("spatial")};
+  const std::vector<std::string>& actuators = knownOf("actuator").children;
+  const bool isActuator = std::ranges::find(actuators, tag.name()) != actuators.end();
+  if (isActuator) return KindOfTag{Kind::kActuator, &knownOf("motor")};
   return {};
 }
 
@@ -92,7 +84,7 @@ void Defaults::fill(const Tag& tag, DefaultClass& own, std::size_t depth, Files&
     tag.fail(tag.where(), "classes nested too deep", fmt::format("level {}", depth),
              fmt::format("at most {}", kDeepestClass));
   std::vector<Tag> nested;
-  for (const Tag& child : files.children(tag, knownOfDefault())) {
+  for (const Tag& child : files.children(tag, knownOf("default"))) {
     if (child.name() == "default") nested.push_back(child);
     const std::optional<KindOfTag> kind = kindOf(child);
     if (!kind) continue;
@@ -168,8 +160,8 @@ void Files::append(const Tag& tag, const Known& known, std::vector<Tag>& childre
       continue;
     }
     File& file = open(child);
-    const Known& knownOfRoot =
-        knownOfRoots_.emplace_back(Known{{"model"}, known.children, known.ignoredChildren});
+    Known& knownOfRoot = knownOfRoots_.emplace_back(known);
+    knownOfRoot.attributes = {"model"};
     append(Tag(file.reading, file.document.root, tag.thing()), knownOfRoot, children);
   }
 }

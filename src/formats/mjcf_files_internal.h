@@ -60,8 +60,8 @@ class Files {
 };
 
 /// The kinds of tags that have defaults which are read; all actuators share theirs.
-enum class Kind { kJoint, kGeom, kMesh, kMaterial, kActuator, kEquality };
-inline constexpr std::size_t kKinds = 6;
+enum class Kind { kJoint, kGeom, kMesh, kMaterial, kActuator, kEquality, kTendon };
+inline constexpr std::size_t kKinds = 7;
 
 /// A <default> with the tags that it gives, in the order of the file.
 struct DefaultClass {

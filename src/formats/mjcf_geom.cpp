@@ -72,7 +72,8 @@ Eigen::Vector4d geomColor(const Styled& styled, const MjcfAssets& assets) {
   if (own != usual || !named.has("material")) return own;
   const std::string& name = named.text("material");
   if (const auto found = assets.colors.find(name); found != assets.colors.end()) return found->second;
-  styled.own().remark(fmt::format("unknown material {}: the geom keeps its own colour", xml::quoted(name)));
+  styled.own().remark(fmt::format("unknown material {}: the geom keeps its own colour", xml::quoted(name)),
+                      Difference::kPicture);
   return own;
 }
 
@@ -121,11 +122,14 @@ const Asset& assetIn(const Styled& styled, const char* attribute,
              fmt::format("a <{}> of the <asset>", attribute), nearestNames(name, known));
 }
 
-// The shape of a mesh; false if the file does not hold one that rex reads.
+// The shape of a mesh; false if rex reads none for it.
 bool readMesh(const Styled& styled, const MjcfAssets& assets, ShapeSpec& shape) {
   const MeshAsset& mesh = assetIn(styled, "mesh", assets.meshes);
-  if (mesh.file.empty()) return false;
+  if (mesh.file.empty() && mesh.mesh.isEmpty()) return false;
   shape.shape.type = ShapeType::kMesh;
+  shape.shape.mesh = mesh.mesh;
+  shape.shape.hull = mesh.hull;
+  shape.X_BS = shape.X_BS * mesh.X_SM;
   shape.meshFile = mesh.file;
   shape.meshScale = mesh.scale;
   shape.where = mesh.where;
@@ -136,7 +140,8 @@ bool readMesh(const Styled& styled, const MjcfAssets& assets, ShapeSpec& shape) 
 void addHeightField(const HeightField& field, const ShapeSpec& geom, const Tag& tag,
                     std::vector<ShapeSpec>& shapes) {
   if (field.pieces.empty())
-    return tag.remark("a <geom> of type 'hfield' is ignored: a scene that is given as text has no files");
+    return tag.remark("a <geom> of type 'hfield' is ignored: a scene that is given as text has no files",
+                      Difference::kContact);
   shapes.push_back(geom);
   shapes.front().contact = false;
   shapes.front().shape = {.type = ShapeType::kMesh, .mesh = field.drawn};
@@ -197,24 +202,14 @@ void weighMesh(const Styled& styled, const MjcfAssets& assets, Solid& solid) {
 
 }  // namespace
 
-const Known& knownOfGeom() {
-  static const Known kKnown = {
-      withPose({"name", "class", "type", "size", "fromto", "mass", "density", "group", "contype",
-                "conaffinity", "rgba", "material", "mesh", "hfield", "fitscale", "shellinertia"}),
-      {},
-      {"plugin"},
-      {"condim", "priority", "friction", "solmix", "solref", "solimp", "margin", "gap", "fluidshape",
-       "fluidcoef", "user"}};
-  return kKnown;
-}
-
 Geom readGeom(const Styled& styled, bool isOnWorld, const Compiler& compiler, const MjcfAssets& assets) {
   const Tag& tag = styled.own();
   const Tag& typed = styled.giver("type");
   const auto given = typed.has("type") ? static_cast<GeomType>(choice(typed, "type", kGeomTypes)) : kSphere;
   Geom geom;
   if (given > kHeightField) {
-    tag.ignore(fmt::format("a <geom> of type '{}'", kGeomTypes[given]));
+    tag.remark(fmt::format("a <geom> of type '{}' is ignored, with its mass", kGeomTypes[given]),
+               Difference::kMotion);
     return geom;
   }
   const bool isFitted = given < kMesh && styled.has("mesh");
@@ -229,7 +224,7 @@ Geom readGeom(const Styled& styled, bool isOnWorld, const Compiler& compiler, co
   constexpr double kFirstHiddenGroup = 3;  // as in MuJoCo's viewer
   shape.visible = styled.number("group", 0) < kFirstHiddenGroup && shape.color[3] > 0;
   if (type == kMesh && !readMesh(styled, assets, shape)) {
-    tag.remark("a <geom> whose mesh has no file is ignored, with its mass");
+    tag.remark("a <geom> whose mesh is not read is ignored, with its mass", Difference::kMotion);
     geom.solid.reset();
     return geom;
   }
@@ -237,6 +232,7 @@ Geom readGeom(const Styled& styled, bool isOnWorld, const Compiler& compiler, co
     addHeightField(assetIn(styled, "hfield", assets.heightFields), shape, tag, geom.shapes);
     return geom;
   }
+  if (type == kMesh && geom.solid) geom.solid->X_BS = shape.X_BS;
   if (isFitted) {
     const Tag& scaled = styled.giver("fitscale");
     geom.fit = GeomFit{kSolidKinds[given], assetIn(styled, "mesh", assets.meshes).inertia,

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -33,7 +34,8 @@ void readRange(const Styled& styled, const Compiler& compiler, JointSpec& joint)
   const Tag& giver = styled.giver("range");
   if (positionCount(joint.type) != 1) {
     giver.ignore(
-        fmt::format("the range of a <joint> of type '{}'", joint.type == JointType::kBall ? "ball" : "free"));
+        fmt::format("the range of a <joint> of type '{}'", joint.type == JointType::kBall ? "ball" : "free"),
+        Difference::kMotion);
     return;
   }
   const Eigen::VectorXd range = giver.numbers("range", 2);
@@ -57,18 +59,21 @@ double slowing(const Styled& styled, const char* attribute) {
   return styled.giver(attribute).notNegative(attribute, 0);
 }
 
-}  // namespace
-
-const Known& knownOfJoint() {
-  static const Known kKnown = {
-      {"name", "class", "type", "pos", "axis", "range", "limited", "ref", "damping", "frictionloss",
-       "actuatorfrcrange", "actuatorfrclimited"},
-      {},
-      {},
-      {"group", "springdamper", "stiffness", "springref", "armature", "margin", "solreflimit", "solimplimit",
-       "solreffriction", "solimpfriction", "user", "actuatorgravcomp"}};
-  return kKnown;
+// The inertia of motors and springs are left out.
+void readDrive(const Styled& styled, JointSpec& joint) {
+  joint.damping = slowing(styled, "damping");
+  joint.friction = slowing(styled, "frictionloss");
+  const auto leaveOut = [&](const char* attribute) {
+    const Tag& giver = styled.giver(attribute);
+    if (giver.has(attribute)) giver.leaveOut(attribute, Difference::kMotion);
+  };
+  if (slowing(styled, "armature") != 0) leaveOut("armature");
+  if (slowing(styled, "stiffness") == 0) return;
+  leaveOut("stiffness");
+  if (styled.number("springref", 0) != 0) leaveOut("springref");
 }
+
+}  // namespace
 
 JointSpec readBodyJoint(const Styled& styled, const Compiler& compiler) {
   const Tag& tag = styled.own();
@@ -77,8 +82,7 @@ JointSpec readBodyJoint(const Styled& styled, const Compiler& compiler) {
   joint.where = tag.where();
   const Tag& typed = styled.giver("type");
   joint.type = kTypesOfMjcf[typed.has("type") ? choice(typed, "type", kJointWords) : 0];
-  joint.damping = slowing(styled, "damping");
-  joint.friction = slowing(styled, "frictionloss");
+  readDrive(styled, joint);
   readRange(styled, compiler, joint);
   if (joint.type == JointType::kFree) return joint;
   const Tag& placed = styled.giver("pos");
@@ -124,18 +128,11 @@ bool isActive(const Tag& tag, const Defaults& defaults) {
 void readPins(const std::vector<Tag>& tags, const Defaults& defaults, const Compiler& compiler,
               BodyTree& tree) {
   if (tags.empty()) return;
-  static const Known kKnown = {{"name", "class", "active", "body1", "body2", "anchor", "site1", "site2"},
-                               {},
-                               {},
-                               {"solref", "solimp"}};
   const std::unordered_map<std::string, Pose> poses = startingPoses(tree);
-  for (const Tag& tag : tags) {
-    tag.expect(kKnown);
-    if (!isActive(tag, defaults)) continue;
-    if (tag.has("site1") || tag.has("site2")) {
-      tag.ignore("a <connect> of sites");
-      continue;
-    }
+  const auto add = [&](const Tag& tag) {
+    tag.expect(knownOf("connect"));
+    if (!isActive(tag, defaults)) return;
+    if (tag.has("site1") || tag.has("site2")) return tag.ignore("a <connect> of sites", Difference::kMotion);
     PinSpec pin{.a = bodyIn(tag, "body1", tree),
                 .b = tag.has("body2") ? bodyIn(tag, "body2", tree) : kWorldName,
                 .where = tag.where()};
@@ -147,24 +144,11 @@ void readPins(const std::vector<Tag>& tags, const Defaults& defaults, const Comp
     if (tree.spec.pins.size() == kMostPins)
       tag.fail(tag.where(), "too many <connect>", "", fmt::format("at most {}", kMostPins));
     tree.spec.pins.push_back(std::move(pin));
-  }
+  };
+  for (const Tag& tag : tags) tree.forEachReplica(tag, [&] { add(tag); });
 }
 
 namespace {
-
-const std::vector<std::string> kMotors = {"motor",       "general", "position", "velocity",
-                                          "intvelocity", "damper",  "cylinder"};
-const std::vector<std::string> kOtherTargets = {"tendon",  "cranksite", "slidersite",   "site",
-                                                "refsite", "body",      "jointinparent"};
-
-const Known& knownOfActuators() {
-  static const Known kKnown = [] {
-    Known known{{}, kMotors, {"muscle", "adhesion", "plugin"}};
-    known.children.emplace_back("include");
-    return known;
-  }();
-  return kKnown;
-}
 
 double largest(const Styled& styled, const char* range) {
   return styled.giver(range).numbers(range, 2).cwiseAbs().maxCoeff();
@@ -208,35 +192,44 @@ template <class Names>
            fmt::format("the name of a {}", kind), nearestNames(name, known));
 }
 
+}  // namespace
+
 JointSpec& jointIn(const Tag& tag, const char* attribute, BodyTree& tree) {
-  const auto found = tree.jointOfName.find(tag.nameIn(attribute));
+  const auto found = tree.jointOfName.find(tree.seen(tag.nameIn(attribute), tree.jointOfName));
   if (found == tree.jointOfName.end()) failAtUnknown(tag, attribute, "joint", tree.jointOfName);
   return tree.joints[found->second].spec;
 }
 
+namespace {
+
 // A joint that follows another: q = ratio * (q of the other) + offset, before chains are resolved.
 struct Follower {
   Tag tag;
-  std::string leader;
+  std::string joint, leader;
   double ratio = 1, offset = 0;
 };
 
 double startOf(const JointSpec& joint) { return joint.q0.size() > 0 ? joint.q0[0] : 0; }
 
+// The coefficients of `polycoef`, the constant one first.
+Eigen::VectorXd polynomialOf(const Styled& styled) {
+  Eigen::VectorXd a = (Eigen::VectorXd(5) << 0, 1, 0, 0, 0).finished();
+  if (const Tag& shaped = styled.giver("polycoef"); shaped.has("polycoef")) {
+    const Eigen::VectorXd given = shaped.numbers("polycoef", 1, 5);
+    a.head(given.size()) = given;
+  }
+  return a;
+}
+
 // Empty for what rex cannot represent.
 std::optional<Follower> followerOf(const Styled& styled, BodyTree& tree) {
   const Tag& tag = styled.own();
   const JointSpec& joint = jointIn(tag, "joint1", tree);
-  const Tag& shaped = styled.giver("polycoef");
-  Eigen::VectorXd a = (Eigen::VectorXd(5) << 0, 1, 0, 0, 0).finished();
-  if (shaped.has("polycoef")) {
-    const Eigen::VectorXd given = shaped.numbers("polycoef", 1, 5);
-    a.head(given.size()) = given;
-  }
+  const Eigen::VectorXd a = polynomialOf(styled);
   const Tag& active = styled.giver("active");
   if (active.has("active") && !flag(active, "active")) return {};
   if (!tag.has("joint2")) {
-    tag.ignore("a <joint> in <equality> that holds a joint in place");
+    tag.ignore("a <joint> in <equality> that holds a joint in place", Difference::kMotion);
     return {};
   }
   const JointSpec& leader = jointIn(tag, "joint2", tree);
@@ -247,10 +240,48 @@ std::optional<Follower> followerOf(const Styled& styled, BodyTree& tree) {
                "two joints of type hinge or slide");
   if (&joint == &leader) tag.fail(tag.where("joint2"), "a joint that follows itself", "", "another joint");
   if (!a.tail(3).isZero(0)) {
-    tag.ignore("a <joint> in <equality> with a polynomial of higher degree");
+    tag.ignore("a <joint> in <equality> with a polynomial of higher degree", Difference::kMotion);
     return {};
   }
-  return Follower{tag, leader.name, a[1], startOf(joint) + a[0] - a[1] * startOf(leader)};
+  return Follower{tag, joint.name, leader.name, a[1], startOf(joint) + a[0] - a[1] * startOf(leader)};
+}
+
+// What keeps the length of a tendon that hangs on two joints, or makes that of one which hangs on one joint
+// follow another one: c q - c q0 = a0 + a1 (d p - d p0), without the second tendon c q + d p is constant.
+std::optional<Follower> followerOnTendon(const Styled& styled, BodyTree& tree) {
+  const Tag& tag = styled.own();
+  const Eigen::VectorXd a = polynomialOf(styled);
+  const Tag& active = styled.giver("active");
+  if (active.has("active") && !flag(active, "active")) return {};
+  using Joints = std::vector<std::pair<std::string, double>>;
+  const auto jointsOn = [&](const char* attribute) -> Joints {
+    const auto found = tree.tendons.find(tag.nameIn(attribute));
+    return found == tree.tendons.end() ? Joints() : found->second;
+  };
+  Joints ends = jointsOn("tendon1");
+  double slope = -1;
+  if (tag.has("tendon2")) {
+    slope = a[1];
+    const Joints second = jointsOn("tendon2");
+    if (ends.size() == 1 && second.size() == 1)
+      ends.push_back(second[0]);
+    else
+      ends.clear();
+  }
+  const auto specOf = [&](std::size_t i) -> JointSpec& {
+    return tree.joints[tree.jointOfName.at(ends[i].first)].spec;
+  };
+  const bool isLinear = ends.size() == 2 && a.tail(3).isZero(0) && ends[0].second != 0 &&
+                        ends[0].first != ends[1].first && positionCount(specOf(0).type) == 1 &&
+                        positionCount(specOf(1).type) == 1;
+  if (!isLinear) {
+    tag.ignore("a <tendon> in <equality>, except with <fixed> ones that couple two joints linearly,",
+               Difference::kMotion);
+    return {};
+  }
+  const double ratio = slope * ends[1].second / ends[0].second;
+  return Follower{tag, ends[0].first, ends[1].first, ratio,
+                  startOf(specOf(0)) + a[0] / ends[0].second - ratio * startOf(specOf(1))};
 }
 
 // Follows the chain of leaders to its end; false if it is a loop.
@@ -266,56 +297,48 @@ bool resolve(const std::string& joint, Follower& follower, const std::map<std::s
   return false;
 }
 
-const Known& knownOfEqualities() {
-  static const Known kKnown = {{},
-                               {"include", "joint", "connect"},
-                               {"weld", "tendon", "flex", "flexvert", "flexstrain", "distance", "plugin"}};
-  return kKnown;
-}
-
 }  // namespace
 
-const std::string& bodyIn(const Tag& tag, const char* attribute, const BodyTree& tree) {
-  const std::string& name = tag.nameIn(attribute);
+std::string bodyIn(const Tag& tag, const char* attribute, const BodyTree& tree) {
+  const std::string name = tree.seen(tag.nameIn(attribute), tree.bodyOfName);
   if (name != kWorldName && !tree.bodyOfName.contains(name))
     failAtUnknown(tag, attribute, "body", tree.bodyOfName);
   return name;
 }
 
-const Known& knownOfActuator() {
-  static const Known kKnown = [] {
-    Known known{
-        {"name", "class", "joint", "gear", "ctrlrange", "ctrllimited", "forcerange", "forcelimited",
-         "gaintype", "biastype", "dyntype", "gainprm"},
-        {},
-        {},
-        {"group",       "lengthrange", "user",     "actdim", "actearly",  "actlimited", "actrange",
-         "biasprm",     "dynprm",      "kp",       "kv",     "dampratio", "timeconst",  "inheritrange",
-         "cranklength", "area",        "diameter", "bias",   "delay",     "nsample"}};
-    known.attributes.insert(known.attributes.end(), kOtherTargets.begin(), kOtherTargets.end());
-    return known;
-  }();
-  return kKnown;
+namespace {
+
+// Adds the strength of an actuator to that of the joints on which it pulls.
+void addEffort(const Styled& styled, const Compiler& compiler, BodyTree& tree,
+               std::unordered_map<std::string, double>& efforts) {
+  const Tag& tag = styled.own();
+  if (tag.has("tendon")) {
+    const auto tendon = tree.tendons.find(tag.text("tendon"));
+    if (tendon == tree.tendons.end())
+      return tag.ignore("an actuator of a spatial tendon", Difference::kMotion);
+    for (const auto& [joint, coefficient] : tendon->second)
+      if (coefficient != 0) efforts[joint] += std::abs(coefficient) * effortOf(styled, compiler);
+    return;
+  }
+  if (!tag.has("joint"))
+    return tag.ignore("an actuator of something other than a joint", Difference::kMotion);
+  const JointSpec& joint = jointIn(tag, "joint", tree);
+  if (positionCount(joint.type) != 1)
+    return tag.ignore("an actuator of a joint of type 'ball' or 'free'", Difference::kMotion);
+  efforts[joint.name] += effortOf(styled, compiler);
 }
+
+}  // namespace
 
 void readActuators(const std::vector<Tag>& sections, Files& files, const Defaults& defaults,
                    const Compiler& compiler, BodyTree& tree) {
   std::unordered_map<std::string, double> efforts;
   for (const Tag& section : sections) {
-    for (const Tag& tag : files.children(section.of("<actuator>"), knownOfActuators())) {
-      if (std::find(kMotors.begin(), kMotors.end(), tag.name()) == kMotors.end()) continue;
-      tag.expect(knownOfActuator());
-      if (!tag.has("joint")) {
-        tag.ignore("an actuator of something other than a joint");
-        continue;
-      }
+    for (const Tag& tag : files.children(section.of("<actuator>"), knownOf("actuator"))) {
+      if (std::ranges::count(knownOf("actuator").children, tag.name()) == 0) continue;
+      tag.expect(knownOf("motor"));
       const Styled styled(tag, defaults.named(tag, "class", defaults.main()), Kind::kActuator);
-      const JointSpec& joint = jointIn(tag, "joint", tree);
-      if (positionCount(joint.type) != 1) {
-        tag.ignore("an actuator of a joint of type 'ball' or 'free'");
-        continue;
-      }
-      efforts[joint.name] += effortOf(styled, compiler);
+      tree.forEachReplica(tag, [&] { addEffort(styled, compiler, tree, efforts); });
     }
   }
   for (const auto& [name, effort] : efforts) {
@@ -324,32 +347,33 @@ void readActuators(const std::vector<Tag>& sections, Files& files, const Default
   }
 }
 
-const Known& knownOfEquality() {
-  static const Known kKnown = {
-      {"name", "class", "joint1", "joint2", "polycoef", "active"}, {}, {}, {"solref", "solimp"}};
-  return kKnown;
-}
-
 void readEqualities(const std::vector<Tag>& sections, Files& files, const Defaults& defaults,
                     const Compiler& compiler, BodyTree& tree) {
   std::map<std::string, Follower> followers;
   std::vector<Tag> pins;
+  const auto couple = [&](const Tag& tag) {
+    const bool isJoint = tag.name() == "joint";
+    const Styled styled(tag, defaults.named(tag, "class", defaults.main()), Kind::kEquality);
+    const std::optional<Follower> follower =
+        isJoint ? followerOf(styled, tree) : followerOnTendon(styled, tree);
+    if (follower && !followers.emplace(follower->joint, *follower).second)
+      tag.warn(tag.where(isJoint ? "joint1" : "tendon1"),
+               fmt::format("'{}' already follows another joint; this is ignored", follower->joint),
+               Difference::kMotion);
+  };
   for (const Tag& section : sections) {
-    for (const Tag& tag : files.children(section.of("<equality>"), knownOfEqualities())) {
+    for (const Tag& tag : files.children(section.of("<equality>"), knownOf("equality"))) {
       if (tag.name() == "connect") pins.push_back(tag);
-      if (tag.name() != "joint") continue;
-      tag.expect(knownOfEquality());
-      const Styled styled(tag, defaults.named(tag, "class", defaults.main()), Kind::kEquality);
-      const std::optional<Follower> follower = followerOf(styled, tree);
-      if (follower && !followers.emplace(tag.text("joint1"), *follower).second)
-        tag.warn(tag.where("joint1"),
-                 fmt::format("'{}' already follows another joint; this is ignored", tag.text("joint1")));
+      if (tag.name() != "joint" && tag.name() != "tendon") continue;
+      tag.expect(knownOf(tag.name() == "joint" ? "equality/joint" : "equality/tendon"));
+      tree.forEachReplica(tag, [&] { couple(tag); });
     }
   }
   for (const auto& [name, unresolved] : followers) {
     Follower follower = unresolved;
     if (!resolve(name, follower, followers)) {
-      follower.tag.warn(follower.tag.where(), "joints that follow each other in a loop; this is ignored");
+      follower.tag.warn(follower.tag.where(), "joints that follow each other in a loop; this is ignored",
+                        Difference::kMotion);
       continue;
     }
     JointSpec& joint = tree.joints[tree.jointOfName.at(name)].spec;

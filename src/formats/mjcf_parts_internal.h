@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/mjcf_files_internal.h"
+#include "formats/mjcf_schema_internal.h"
 #include "formats/scene_file.h"
 #include "formats/urdf_parts_internal.h"
 #include "geometry/mesh_mass.h"
@@ -45,8 +46,8 @@ void readCompiler(const Tag& tag, Compiler& compiler);
 [[nodiscard]] Pose poseOf(const Styled& tag, const Compiler& compiler);
 /// The smallest turn that takes z to a direction; of the opposite one, about x.
 [[nodiscard]] Eigen::Matrix3d rotationFromZ(const Eigen::Vector3d& direction);
-/// The attributes that poseOf() reads, and others of the tag.
-[[nodiscard]] std::vector<std::string> withPose(std::vector<std::string> others);
+/// The turn by three angles of the file, about the axes that `eulerseq` names.
+[[nodiscard]] Eigen::Matrix3d rotationFromEuler(const Eigen::Vector3d& angles, const Compiler& compiler);
 
 /// The place of a word among those that an attribute may have.
 [[nodiscard]] std::size_t choice(const Tag& tag, const char* attribute,
@@ -57,10 +58,12 @@ void readCompiler(const Tag& tag, Compiler& compiler);
 [[nodiscard]] bool isLimited(const Styled& tag, const char* limited, const char* range,
                              const Compiler& compiler);
 
-/// A <mesh>.
+/// A <mesh>: that of a file, or one that is given in the tag, scaled already.
 struct MeshAsset {
   std::string file;
+  TriangleMesh mesh{}, hull{};
   Eigen::Vector3d scale{1, 1, 1};
+  Pose X_SM{};  ///< where it stands in the frame of its geom, by refpos and refquat
   MeshInertia inertia = MeshInertia::kLegacy;
   SourceLocation where{};
 };
@@ -76,8 +79,11 @@ struct MjcfAssets {
   std::unordered_map<std::string, HeightField> heightFields;
   std::unordered_map<std::string, Eigen::Vector4d> colors;
 };
-[[nodiscard]] const Known& knownOfMesh();
-[[nodiscard]] const Known& knownOfMaterial();
+/// The mesh that `vertex` and `face` or `builtin` give; empty without these.
+[[nodiscard]] TriangleMesh meshInTag(const Tag& tag);
+/// Where refpos and refquat put a mesh, whose `scale` becomes that along its own axes: MuJoCo scales what is
+/// turned.
+[[nodiscard]] Pose placeOfMesh(const Tag& tag, Eigen::Vector3d& scale);
 /// The numbers of `rgba`, each from 0 to 1; empty if it is not given.
 [[nodiscard]] std::optional<Eigen::Vector4d> colorOf(const Styled& styled);
 void readAssets(const Tag& tag, Files& files, const Defaults& defaults, const Compiler& compiler,
@@ -118,13 +124,11 @@ struct Geom {
   std::optional<GeomFit> fit{};
   std::string name{};  ///< empty: none
 };
-[[nodiscard]] const Known& knownOfGeom();
 [[nodiscard]] Geom readGeom(const Styled& tag, bool isOnWorld, const Compiler& compiler,
                             const MjcfAssets& assets);
 
 /// A <joint> of a body: X_PF and X_MC are as if the parent's frame were that of the body where the joint is
 /// at `ref`. A missing name is given later.
-[[nodiscard]] const Known& knownOfJoint();
 [[nodiscard]] JointSpec readBodyJoint(const Styled& tag, const Compiler& compiler);
 
 /// A body of the file; its mass follows when all meshes are there.
@@ -155,6 +159,32 @@ struct BodyTree {
   std::unordered_map<std::string, std::size_t> jointOfName{}, bodyOfName{};
   std::unordered_map<std::string, GeomInTree> geomOfName{};
   std::vector<FitInTree> fits{};
+  /// The joints on each <fixed> tendon, with their coefficients.
+  std::unordered_map<std::string, std::vector<std::pair<std::string, double>>> tendons{};
+  /// What follows the names that stand in a <replicate>, once for each replica.
+  std::unordered_map<std::string, std::vector<std::string>> replicas{};
+  std::string suffix{};  ///< of the replica that names mean first
+
+  /// A name as that of a thing of these: the one of the replica, or the plain one.
+  template <class Things>
+  std::string seen(const std::string& name, const Things& things) const {
+    return things.contains(name + suffix) ? name + suffix : name;
+  }
+  /// Calls visit() once for each replica of the things that a tag names, or once.
+  template <class Visit>
+  void forEachReplica(const Tag& tag, const Visit& visit) {
+    for (const char* attribute : {"joint", "joint1", "joint2", "body1", "body2", "geom1", "geom2"}) {
+      const auto found = tag.has(attribute) ? replicas.find(tag.text(attribute)) : replicas.end();
+      if (found == replicas.end()) continue;
+      for (const std::string& one : found->second) {
+        suffix = one;
+        visit();
+      }
+      suffix.clear();
+      return;
+    }
+    visit();
+  }
 
   /// The shapes of a body, or of the world.
   std::vector<ShapeSpec>& shapesOf(const std::optional<std::size_t>& body) {
@@ -171,18 +201,21 @@ void fitGeoms(BodyTree& tree, const Compiler& compiler, Reading& reading);
 /// Gives all bodies their masses.
 void setMasses(BodyTree& tree, const Compiler& compiler, Reading& reading);
 
+/// <tendon>: what joints hang on which.
+void readTendons(const std::vector<Tag>& sections, Files& files, const Defaults& defaults,
+                 const Compiler& compiler, BodyTree& tree);
 /// <actuator>: how strong joints are. <equality>: which follow others, and what is pinned to what.
-[[nodiscard]] const Known& knownOfActuator();
 void readActuators(const std::vector<Tag>& sections, Files& files, const Defaults& defaults,
                    const Compiler& compiler, BodyTree& tree);
-[[nodiscard]] const Known& knownOfEquality();
 void readEqualities(const std::vector<Tag>& sections, Files& files, const Defaults& defaults,
                     const Compiler& compiler, BodyTree& tree);
+/// The joint of the tree that an attribute names.
+[[nodiscard]] JointSpec& jointIn(const Tag& tag, const char* attribute, BodyTree& tree);
 /// The tags <connect>.
 void readPins(const std::vector<Tag>& tags, const Defaults& defaults, const Compiler& compiler,
               BodyTree& tree);
 /// The name of a body of the tree, or "world".
-[[nodiscard]] const std::string& bodyIn(const Tag& tag, const char* attribute, const BodyTree& tree);
+[[nodiscard]] std::string bodyIn(const Tag& tag, const char* attribute, const BodyTree& tree);
 /// <contact>: who may not collide, and which geoms may (<pair>).
 void readContacts(const std::vector<Tag>& sections, Files& files, BodyTree& tree);
 

@@ -30,18 +30,6 @@ Eigen::Vector3d direction(const Tag& tag, const char* attribute, const Eigen::Ve
   return given / length;
 }
 
-Eigen::Matrix3d fromEuler(const Eigen::Vector3d& angles, const Compiler& compiler) {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  for (int i = 0; i < 3; ++i) {
-    const char axis = compiler.eulerOrder[static_cast<std::size_t>(i)];
-    const bool turnsAlong = axis >= 'x';
-    const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis - (turnsAlong ? 'x' : 'X'));
-    const Eigen::Matrix3d turn = rotationAboutAxis(compiler.angle(angles[i]), unit);
-    R = turnsAlong ? Eigen::Matrix3d(R * turn) : Eigen::Matrix3d(turn * R);
-  }
-  return R;
-}
-
 Eigen::Matrix3d fromAxes(const Tag& tag) {
   const char* wanted = "two directions that are not parallel";
   const Eigen::VectorXd given = tag.numbers("xyaxes", 6);
@@ -57,7 +45,7 @@ Eigen::Matrix3d fromAxes(const Tag& tag) {
 }
 
 Eigen::Matrix3d orientationBy(const std::string& attribute, const Tag& tag, const Compiler& compiler) {
-  if (attribute == "euler") return fromEuler(tag.numbers("euler", 3), compiler);
+  if (attribute == "euler") return rotationFromEuler(tag.numbers("euler", 3), compiler);
   if (attribute == "xyaxes") return fromAxes(tag);
   if (attribute == "zaxis") return rotationFromZ(direction(tag, "zaxis", tag.numbers("zaxis", 3)));
   const Eigen::Vector4d given = tag.numbers(attribute.c_str(), 4);
@@ -116,18 +104,6 @@ void readGroups(const Tag& tag, Compiler& compiler) {
   compiler.mostGroup = static_cast<int>(std::floor(bounded[1]));
 }
 
-const Known& knownOfCompiler() {
-  static const Known kKnown = {
-      {"angle", "autolimits", "coordinate", "eulerseq", "meshdir", "assetdir", "inertiafromgeom",
-       "inertiagrouprange", "strippath", "boundmass", "boundinertia", "settotalmass", "balanceinertia",
-       "fitaabb", "exactmeshinertia"},
-      {},
-      {"lengthrange"},
-      {"fusestatic", "discardvisual", "usethread", "texturedir", "convexhull", "alignfree", "saveinertial",
-       "conflict"}};
-  return kKnown;
-}
-
 }  // namespace
 
 double Compiler::angle(double given) const { return degrees ? given * std::numbers::pi / 180 : given; }
@@ -135,8 +111,9 @@ double Compiler::angle(double given) const { return degrees ? given * std::numbe
 void readCompiler(const Tag& given, Compiler& compiler) {
   using Inertia = Compiler::Inertia;
   const Tag tag = given.of("<compiler>");
-  tag.expect(knownOfCompiler());
+  tag.expect(knownOf("compiler"));
   readCoordinates(tag, compiler);
+  if (tag.has("alignfree") && flag(tag, "alignfree")) tag.leaveOut("alignfree", Difference::kMotion);
   if (tag.has("angle")) compiler.degrees = choice(tag, "angle", {"radian", "degree"}) == 1;
   const auto readFlag = [&](const char* name, bool& value) {
     if (tag.has(name)) value = flag(tag, name);
@@ -163,6 +140,18 @@ void readCompiler(const Tag& given, Compiler& compiler) {
   }
 }
 
+Eigen::Matrix3d rotationFromEuler(const Eigen::Vector3d& angles, const Compiler& compiler) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  for (int i = 0; i < 3; ++i) {
+    const char axis = compiler.eulerOrder[static_cast<std::size_t>(i)];
+    const bool turnsAlong = axis >= 'x';
+    const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis - (turnsAlong ? 'x' : 'X'));
+    const Eigen::Matrix3d turn = rotationAboutAxis(compiler.angle(angles[i]), unit);
+    R = turnsAlong ? Eigen::Matrix3d(R * turn) : Eigen::Matrix3d(turn * R);
+  }
+  return R;
+}
+
 Pose poseOf(const Styled& tag, const Compiler& compiler) {
   Pose X;
   const Tag& giver = tag.giver("pos");
@@ -176,12 +165,6 @@ Eigen::Matrix3d rotationFromZ(const Eigen::Vector3d& direction) {
   const double sine = axis.norm();
   if (sine < 1e-10 * std::abs(direction.z())) axis = Eigen::Vector3d::UnitX();
   return rotationAboutAxis(std::atan2(sine, direction.z()), axis);
-}
-
-std::vector<std::string> withPose(std::vector<std::string> others) {
-  others.emplace_back("pos");
-  others.insert(others.end(), kOrientations.begin(), kOrientations.end());
-  return others;
 }
 
 std::size_t choice(const Tag& tag, const char* attribute, const std::vector<std::string>& words) {
@@ -214,15 +197,6 @@ namespace {
 
 using namespace mjcf;
 
-const Known& knownOfModel() {
-  static const Known kKnown = {
-      {"model"},
-      {"include", "compiler", "option", "default", "asset", "worldbody", "actuator", "equality", "contact",
-       "keyframe"},
-      {"size", "visual", "statistic", "custom", "deformable", "tendon", "sensor", "extension"}};
-  return kKnown;
-}
-
 // The sections with that name in all files.
 std::vector<Tag> named(const std::vector<Tag>& sections, const char* name) {
   std::vector<Tag> found;
@@ -231,12 +205,55 @@ std::vector<Tag> named(const std::vector<Tag>& sections, const char* name) {
   return found;
 }
 
-void noteOption(const Tag& given) {
+// What the flags of <option> leave of a model.
+struct Switches {
+  bool equality = true, friction = true, limits = true, contacts = true, dampers = true;
+};
+
+void readFlags(const Tag& tag, Switches& switches) {
+  tag.expect(knownOf("flag"));
+  const auto isOff = [&](const char* name) {
+    return tag.has(name) && choice(tag, name, {"disable", "enable"}) == 0;
+  };
+  const bool constrains = !isOff("constraint"), resists = !isOff("passive");
+  switches.equality = switches.equality && constrains && !isOff("equality");
+  switches.friction = switches.friction && constrains && !isOff("frictionloss");
+  switches.limits = switches.limits && constrains && !isOff("limit");
+  switches.contacts = switches.contacts && constrains && !isOff("contact");
+  switches.dampers = switches.dampers && resists && !isOff("damper");
+  for (const char* name : {"gravity", "clampctrl", "actuation"})
+    if (isOff(name)) tag.leaveOut(name, Difference::kMotion);
+  if (isOff("filterparent")) tag.leaveOut("filterparent", Difference::kContact);
+  if (tag.has("override") && !isOff("override")) tag.leaveOut("override", Difference::kContact);
+}
+
+void readOption(const Tag& given, Switches& switches) {
   const Tag tag = given.of("<option>");
-  tag.ignore("<option>");
+  tag.expect(knownOf("option"));
   const Eigen::Vector3d usual(0, 0, -9.81);
   if (tag.has("gravity") && !tag.numbers("gravity", 3).isApprox(usual, 1e-9))
-    tag.warn(tag.where("gravity"), "rex always computes with a gravity of 9.81 m/s^2 along -z");
+    tag.warn(tag.where("gravity"), "rex always computes with a gravity of 9.81 m/s^2 along -z",
+             Difference::kMotion);
+  for (const char* fluid : {"density", "viscosity"})
+    if (tag.number(fluid, 0) != 0) tag.leaveOut(fluid, Difference::kMotion);
+  for (const Tag& flags : tag.children("flag")) readFlags(flags, switches);
+}
+
+void apply(const Switches& switches, BodyTree& tree, Notes& notes) {
+  for (urdf::ReadJoint& read : tree.joints) {
+    JointSpec& joint = read.spec;
+    if (!switches.friction) joint.friction = 0;
+    if (!switches.dampers) joint.damping = 0;
+    if (switches.limits) continue;
+    joint.lower.resize(0);
+    joint.upper.resize(0);
+  }
+  if (switches.contacts) return;
+  notes.remark({tree.spec.name}, "<flag> disables contact: nothing touches");
+  for (FitInTree& fit : tree.fits) fit.fit.contact = false;
+  for (ShapeSpec& shape : tree.spec.worldShapes) shape.contact = false;
+  for (BodySpec& body : tree.spec.bodies)
+    for (ShapeSpec& shape : body.shapes) shape.contact = false;
 }
 
 // One warning for all joints that start outside their ranges.
@@ -259,9 +276,10 @@ void noteStarts(const std::vector<urdf::ReadJoint>& joints, Notes& notes) {
 
 // A model as text; its bodies have no masses yet.
 BodyTree readModel(Files& files, const std::string& name, Compiler& compiler) {
-  const std::vector<Tag> sections = files.children(files.root(), knownOfModel());
+  const std::vector<Tag> sections = files.children(files.root(), knownOf("mujoco"));
   for (const Tag& tag : named(sections, "compiler")) readCompiler(tag, compiler);
-  for (const Tag& tag : named(sections, "option")) noteOption(tag);
+  Switches switches;
+  for (const Tag& tag : named(sections, "option")) readOption(tag, switches);
   Defaults defaults;
   for (const Tag& tag : named(sections, "default")) defaults.read(tag, files);
   MjcfAssets assets;
@@ -269,11 +287,15 @@ BodyTree readModel(Files& files, const std::string& name, Compiler& compiler) {
     readAssets(tag.of("<asset>"), files, defaults, compiler, assets);
   BodyTree tree = readTree(named(sections, "worldbody"), files, defaults, compiler, assets);
   tree.spec.name = name;
+  for (const Tag& tag : named(sections, "deformable"))
+    static_cast<void>(files.children(tag.of("<deformable>"), knownOf("deformable")));
+  readTendons(named(sections, "tendon"), files, defaults, compiler, tree);
   readActuators(named(sections, "actuator"), files, defaults, compiler, tree);
-  readEqualities(named(sections, "equality"), files, defaults, compiler, tree);
+  if (switches.equality) readEqualities(named(sections, "equality"), files, defaults, compiler, tree);
   readContacts(named(sections, "contact"), files, tree);
   readKeyframes(named(sections, "keyframe"), files, tree);
-  noteUntouchable(tree, files.main().notes);
+  apply(switches, tree, files.main().notes);
+  if (switches.contacts) noteUntouchable(tree, files.main().notes);
   forbidNeighbours(tree);
   urdf::keepTargetsMovable(tree.joints, files.main());
   noteStarts(tree.joints, files.main().notes);

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -7,21 +9,7 @@
 namespace rex::mjcf {
 namespace {
 
-constexpr std::size_t kMostJoints = 1000, kDeepestBody = 100, kMostPieces = 32'768;
-
-const Known& knownOfBody() {
-  static const Known kKnown = {
-      withPose({"name", "childclass"}),
-      {"include", "inertial", "joint", "freejoint", "geom", "body", "frame"},
-      {"site", "camera", "light", "plugin", "composite", "flexcomp", "replicate", "attach"},
-      {"mocap", "gravcomp", "user", "sleep"}};
-  return kKnown;
-}
-
-const Known& knownOfWorld() {
-  static const Known kKnown = {{}, knownOfBody().children, knownOfBody().ignoredChildren};
-  return kKnown;
-}
+constexpr std::size_t kMostJoints = 1000, kDeepestBody = 100, kMostPieces = 32'768, kMostReplicas = 10'000;
 
 // A body as it is in the file, before all names are known.
 struct BodyNode {
@@ -71,10 +59,11 @@ class NodeReader {
       : files_(files), defaults_(defaults), compiler_(compiler), assets_(assets) {}
 
   void readWorld(const Tag& section, BodyNode& world) {
-    collect(section.of("<worldbody>"), knownOfWorld(), {}, defaults_.main(), world, 0);
+    collect(section.of("<worldbody>"), knownOf("worldbody"), {}, defaults_.main(), world, 0);
   }
   const std::unordered_map<std::string, SourceLocation>& bodies() const { return bodies_; }
   const std::unordered_map<std::string, SourceLocation>& joints() const { return joints_; }
+  std::unordered_map<std::string, std::vector<std::string>> takeReplicas() { return std::move(replicas_); }
 
  private:
   static bool isWorld(const BodyNode& body) { return body.name == kWorldName; }
@@ -88,6 +77,7 @@ class NodeReader {
     for (const Tag& child : files_.children(tag, known)) {
       if (child.name() == "body") body.children.push_back(readBody(child, X_BF, style, depth + 1));
       if (child.name() == "frame") collectFrame(child, X_BF, style, body, depth + 1);
+      if (child.name() == "replicate") collectReplicas(child, X_BF, style, body, depth + 1);
       if (child.name() == "inertial") readGiven(child, X_BF, body);
       if (child.name() == "geom") readBodyGeom(child, X_BF, style, body);
       if (child.name() == "joint" || child.name() == "freejoint") readMotion(child, X_BF, style, body);
@@ -97,7 +87,7 @@ class NodeReader {
   BodyNode readBody(const Tag& given, const Pose& X_PF, const DefaultClass& around, std::size_t depth) {
     BodyNode body{given};
     if (given.has("name")) {
-      body.name = given.nameIn("name");
+      body.name = nameOf(given);
       body.tag = given.of(fmt::format("body '{}'", body.name));
       if (isWorld(body)) body.tag.failAt("name", "the name of the world itself", "another name");
       requireNew(body.tag, "body", body.name, bodies_);
@@ -108,21 +98,50 @@ class NodeReader {
     const Pose X_FB = poseOf(Styled(body.tag), compiler_);
     body.X_PB = X_PF * X_FB;
     const Pose X_BF = compiler_.global ? X_FB.inverse() : Pose{};
-    collect(body.tag, knownOfBody(), X_BF, defaults_.named(body.tag, "childclass", around), body, depth);
+    if (given.number("gravcomp", 0) != 0) given.leaveOut("gravcomp", Difference::kMotion);
+    collect(body.tag, knownOf("body"), X_BF, defaults_.named(body.tag, "childclass", around), body, depth);
     return body;
   }
 
   void collectFrame(const Tag& tag, const Pose& X_BF, const DefaultClass& style, BodyNode& body,
                     std::size_t depth) {
-    static const Known kKnown = {withPose({"name", "childclass"}), knownOfBody().children,
-                                 knownOfBody().ignoredChildren};
     const Pose X_BG = X_BF * poseOf(Styled(tag), compiler_);
-    collect(tag, kKnown, X_BG, defaults_.named(tag, "childclass", style), body, depth);
+    collect(tag, knownOf("frame"), X_BG, defaults_.named(tag, "childclass", style), body, depth);
+  }
+
+  // Each replica stands in the frame of the one before; those of inner tags have the inner number first.
+  void collectReplicas(const Tag& tag, const Pose& X_BF, const DefaultClass& style, BodyNode& body,
+                       std::size_t depth) {
+    const double count = tag.number("count");
+    if (!(count >= 1 && count == std::floor(count)))
+      tag.failAt("count", xml::quoted(tag.text("count")), "a whole number > 0");
+    Pose X_step;
+    if (tag.has("offset")) X_step.p = tag.numbers("offset", 3);
+    if (tag.has("euler")) X_step.R = rotationFromEuler(tag.numbers("euler", 3), compiler_);
+    const std::string around = suffix_, separator = tag.has("sep") ? tag.text("sep") : "";
+    const int digits = static_cast<int>(fmt::format("{}", count).size());
+    Pose X_BR = X_BF;
+    for (int i = 0; i < count; ++i) {
+      if (++replicaCount_ > kMostReplicas)
+        tag.fail(tag.where(), "too many replicas", "", fmt::format("at most {}", kMostReplicas));
+      suffix_ = fmt::format("{}{:0{}}{}", separator, i, digits, around);
+      collect(tag, knownOf("replicate"), X_BR, defaults_.named(tag, "childclass", style), body, depth);
+      X_BR = X_BR * X_step;
+    }
+    suffix_ = around;
+  }
+
+  // The name of a thing, in a replica with its number.
+  std::string nameOf(const Tag& tag) {
+    const std::string& name = tag.nameIn("name");
+    if (suffix_.empty()) return name;
+    std::vector<std::string>& suffixes = replicas_[name];
+    if (std::ranges::count(suffixes, suffix_) == 0) suffixes.push_back(suffix_);
+    return name + suffix_;
   }
 
   void readGiven(const Tag& tag, const Pose& X_BF, BodyNode& body) const {
-    static const Known kKnown = {withPose({"mass", "diaginertia", "fullinertia"}), {}};
-    tag.expect(kKnown);
+    tag.expect(knownOf("inertial"));
     refuseOnWorld(tag, body);
     if (body.given) tag.fail(tag.where(), "a second one", "", "one");
     if (compiler_.inertia == Compiler::Inertia::kFromGeoms && !tag.has("pos")) {
@@ -137,29 +156,29 @@ class NodeReader {
 
   void readBodyGeom(const Tag& given, const Pose& X_BF, const DefaultClass& style, BodyNode& body) {
     const Tag tag = given.has("name") ? given.of(fmt::format("geom '{}'", given.nameIn("name"))) : given;
-    tag.expect(knownOfGeom());
+    tag.expect(knownOf("geom"));
     const Styled styled(tag, defaults_.named(tag, "class", style), Kind::kGeom);
     Geom geom = readGeom(styled, isWorld(body), compiler_, assets_);
     // Those with more than one are height fields.
     if (geom.shapes.size() > 1) pieces_ += geom.shapes.size();
     if (pieces_ > kMostPieces)
       tag.fail(tag.where(), "too many pieces of height fields", "", fmt::format("at most {}", kMostPieces));
-    if (tag.has("name")) geom.name = tag.text("name");
+    if (tag.has("name")) geom.name = nameOf(tag);
     for (ShapeSpec& shape : geom.shapes) shape.X_BS = X_BF * shape.X_BS;
     if (geom.solid) geom.solid->X_BS = X_BF * geom.solid->X_BS;
     body.geoms.push_back(std::move(geom));
   }
 
   void readMotion(const Tag& given, const Pose& X_BF, const DefaultClass& style, BodyNode& body) {
-    static const Known kKnownOfFree = {{"name"}, {}, {}, {"group", "align"}};
     refuseOnWorld(given, body);
     const Tag tag = given.has("name") ? given.of(fmt::format("joint '{}'", given.nameIn("name"))) : given;
     JointSpec joint;
     if (tag.name() == "freejoint") {
-      tag.expect(kKnownOfFree);
+      tag.expect(knownOf("freejoint"));
+      if (tag.has("align") && tag.text("align") == "true") tag.leaveOut("align", Difference::kMotion);
       joint.type = JointType::kFree;
     } else {
-      tag.expect(knownOfJoint());
+      tag.expect(knownOf("joint"));
       joint = readBodyJoint(Styled(tag, defaults_.named(tag, "class", style), Kind::kJoint), compiler_);
     }
     joint.where = tag.where();
@@ -168,7 +187,7 @@ class NodeReader {
       joint.X_MC = joint.X_MC * X_BF.inverse();
     }
     if (tag.has("name")) {
-      joint.name = tag.text("name");
+      joint.name = nameOf(tag);
       requireNew(tag, "joint", joint.name, joints_);
     }
     body.joints.push_back(std::move(joint));
@@ -193,6 +212,9 @@ class NodeReader {
   const MjcfAssets& assets_;
   std::unordered_map<std::string, SourceLocation> bodies_, joints_;  // that have names
   std::size_t pieces_ = 0;                                           // of height fields
+  std::unordered_map<std::string, std::vector<std::string>> replicas_{};
+  std::string suffix_{};  // of names in the replica in hand
+  std::size_t replicaCount_ = 0;
 };
 
 // Names for things without a name.
@@ -335,7 +357,9 @@ BodyTree readTree(const std::vector<Tag>& worldbodies, Files& files, const Defau
   NodeReader reader(files, defaults, compiler, assets);
   BodyNode world{files.root(), {}, kWorldName};
   for (const Tag& section : worldbodies) reader.readWorld(section, world);
-  return TreeMaker(reader).make(std::move(world));
+  BodyTree tree = TreeMaker(reader).make(std::move(world));
+  tree.replicas = reader.takeReplicas();
+  return tree;
 }
 
 }  // namespace rex::mjcf

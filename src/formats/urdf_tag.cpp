@@ -51,25 +51,29 @@ Numbers parseNumbers(std::string_view text, std::size_t most) {
 
 }  // namespace
 
-void Notes::warn(const SourceLocation& where, const std::string& message) {
+void Notes::warn(const SourceLocation& where, const std::string& message, Difference difference) {
   if (isFull()) {
     ++unlisted_;
   } else {
-    found_.push_back({where, message, Severity::kWarning});
+    const char* const comma = difference == Difference::kNone ? "" : "; ";
+    found_.push_back(
+        {where, fmt::format("{}{}{}", message, comma, toString(difference)), Severity::kWarning});
   }
 }
 
-void Notes::ignore(const SourceLocation& where, const std::string& kind) {
-  remark(where, kind + " is ignored");
+void Notes::ignore(const SourceLocation& where, const std::string& kind, Difference difference) {
+  remark(where, kind + " is ignored", difference);
 }
 
-void Notes::remark(const SourceLocation& where, const std::string& message) {
+void Notes::remark(const SourceLocation& where, const std::string& message, Difference difference) {
   Remark& remark = remarks_[message];
   if (remark.count++ == 0) remark.first = where;
+  remark.difference = difference;
 }
 
-void Notes::leaveOut(const SourceLocation& where, const std::string& tag, const std::string& attribute) {
-  LeftOut& leftOut = leftOut_[tag];
+void Notes::leaveOut(const SourceLocation& where, const std::string& tag, const std::string& attribute,
+                     Difference difference) {
+  LeftOut& leftOut = leftOut_[{tag, difference}];
   if (leftOut.counts.empty()) leftOut.first = where;
   ++leftOut.counts[attribute];
 }
@@ -81,6 +85,7 @@ void Notes::add(Notes other) {
     Remark& remark = remarks_[message];
     if (remark.count == 0) remark.first = more.first;
     remark.count += more.count;
+    remark.difference = more.difference;
   }
   for (const auto& [tag, more] : other.leftOut_) {
     LeftOut& leftOut = leftOut_[tag];
@@ -94,24 +99,36 @@ Diagnostics Notes::take() {
     found_.push_back({{found_.back().where.file},
                       fmt::format("{} more warnings are not listed", unlisted_),
                       Severity::kWarning});
+  const auto firstGrouped = static_cast<std::ptrdiff_t>(found_.size());
+  const auto add = [&](const SourceLocation& where, const std::string& message, Difference difference) {
+    found_.push_back({where, message, isGrave(difference) ? Severity::kWarning : Severity::kNote});
+  };
   for (const auto& [message, remark] : remarks_) {
-    const std::string times = remark.count > 1 ? fmt::format(" ({} times)", remark.count) : "";
-    found_.push_back({remark.first, message + times});
+    const std::string_view differs = toString(remark.difference);
+    add(remark.first,
+        fmt::format("{}{}{}{}", message, differs.empty() ? "" : ": ", differs,
+                    remark.count > 1 ? fmt::format(" ({} times)", remark.count) : ""),
+        remark.difference);
   }
-  for (const auto& [tag, leftOut] : leftOut_) {
+  for (const auto& [key, leftOut] : leftOut_) {
     std::vector<std::string> attributes;
     for (const auto& [name, count] : leftOut.counts)
       attributes.push_back(count > 1 ? fmt::format("{} ({} times)", name, count) : name);
-    found_.push_back(
-        {leftOut.first, fmt::format("{}: attributes that are not read: {}", tag, join(attributes, ", "))});
+    add(leftOut.first,
+        fmt::format("{}: {}: attributes that are not read: {}", key.first, toString(key.second),
+                    join(attributes, ", ")),
+        key.second);
   }
+  std::stable_partition(found_.begin() + firstGrouped, found_.end(),
+                        [](const Diagnostic& one) { return one.severity == Severity::kWarning; });
   return std::move(found_);
 }
 
-void Reading::forgive(ErrorParts fault, const std::string& instead) {
+void Reading::forgive(ErrorParts fault, const std::string& instead, Difference difference) {
   if (strict) throw Error(std::move(fault));
   const SourceLocation where = std::exchange(fault.where, {});
-  notes.warn(where, notes.isFull() ? "" : fmt::format("{}; {}", Error(std::move(fault)).what(), instead));
+  notes.warn(where, notes.isFull() ? "" : fmt::format("{}; {}", Error(std::move(fault)).what(), instead),
+             difference);
 }
 
 Tag::Tag(Reading& reading, const xml::Element& element, std::string thing)
@@ -130,32 +147,68 @@ SourceLocation Tag::where(const char* attribute) const {
 
 void Tag::expect(const Known& known) const {
   known_ = &known;
-  const xml::Document& document = reading_->document;
-  Notes& notes = reading_->notes;
-  const auto noteUnknown = [&](std::uint32_t at, const std::string& what, const std::string& name,
-                               const std::vector<std::string>& names) {
-    warn(document.where(at),
-         [&] { return fmt::format("unknown {} is ignored{}", what, guess(name, names)); });
-  };
-  for (const xml::Attribute& attribute : element_->attributes) {
-    if (belongsToXml(attribute.name) || contains(known.attributes, attribute.name)) continue;
-    if (contains(known.ignoredAttributes, attribute.name)) {
-      notes.leaveOut(document.where(attribute.at), fmt::format("<{}>", element_->name), attribute.name);
-      continue;
-    }
-    noteUnknown(attribute.at, fmt::format("attribute '{}'", attribute.name), attribute.name,
-                known.attributes);
+  for (const xml::Attribute& attribute : element_->attributes) expectAttribute(attribute, known);
+  for (const xml::Element& child : element_->children) expectChild(child, known);
+  if (element_->textAt) warn(reading_->document.where(*element_->textAt), "text is ignored");
+}
+
+void Tag::expectAttribute(const xml::Attribute& attribute, const Known& known) const {
+  if (belongsToXml(attribute.name) || contains(known.attributes, attribute.name)) return;
+  const SourceLocation where = reading_->document.where(attribute.at);
+  const auto leftOut = known.leftOut.find(attribute.name);
+  if (leftOut == known.leftOut.end())
+    return warn(where, [&] {
+      return fmt::format("unknown attribute '{}' is ignored{}", attribute.name,
+                         guess(attribute.name, known.attributes));
+    });
+  if (leftOut->second != Difference::kNone) leaveOut(attribute.name.c_str(), leftOut->second);
+}
+
+void Tag::expectChild(const xml::Element& child, const Known& known) const {
+  if (contains(known.children, child.name)) return;
+  const SourceLocation where = reading_->document.where(child.at);
+  const std::string tag = fmt::format("<{}>", child.name);
+  if (contains(known.ignoredChildren, child.name)) return reading_->notes.ignore(where, tag);
+  if (contains(known.refused, child.name))
+    fail(where, tag + " is not read", "",
+         "its bodies as <body>, as MuJoCo writes them when it saves a model");
+  const auto leftOut = known.leftOut.find(tag);
+  if (leftOut == known.leftOut.end()) {
+    if (known.refusesOthers)
+      fail(where, "unknown tag " + tag, "", "one of MuJoCo's", nearestNames(child.name, known.children));
+    return warn(where, [&] {
+      return fmt::format("unknown tag {} is ignored{}", tag, guess(child.name, known.children));
+    });
   }
-  for (const xml::Element& element : element_->children) {
-    if (contains(known.children, element.name)) continue;
-    const std::string tag = fmt::format("<{}>", element.name);
-    if (contains(known.ignoredChildren, element.name)) {
-      notes.ignore(document.where(element.at), tag);
-    } else {
-      noteUnknown(element.at, "tag " + tag, element.name, known.children);
-    }
-  }
-  if (element_->textAt) warn(document.where(*element_->textAt), "text is ignored");
+  refuseIfStrict(where, tag + " is not read", leftOut->second);
+  if (leftOut->second != Difference::kNone) reading_->notes.ignore(where, tag, leftOut->second);
+}
+
+void Tag::refuseIfStrict(const SourceLocation& where, const std::string& message,
+                         Difference difference) const {
+  if (isStrict() && isGrave(difference))
+    fail(where, fmt::format("{}: {}", message, toString(difference)), "", "");
+}
+
+void Tag::warn(const SourceLocation& where, const std::string& message, Difference difference) const {
+  refuseIfStrict(where, message, difference);
+  reading_->notes.warn(where, fmt::format("{}: {}", thing_, message), difference);
+}
+
+void Tag::ignore(const std::string& kind, Difference difference) const {
+  refuseIfStrict(where(), kind + " is ignored", difference);
+  reading_->notes.ignore(where(), kind, difference);
+}
+
+void Tag::leaveOut(const char* attribute, Difference difference) const {
+  const SourceLocation at = reading_->document.where(need(attribute).at);
+  refuseIfStrict(at, fmt::format("attribute '{}' is not read", attribute), difference);
+  reading_->notes.leaveOut(at, fmt::format("<{}>", element_->name), attribute, difference);
+}
+
+void Tag::remark(const std::string& message, Difference difference) const {
+  refuseIfStrict(where(), message, difference);
+  reading_->notes.remark(where(), message, difference);
 }
 
 const xml::Attribute* Tag::find(std::string_view attribute) const {
@@ -278,9 +331,9 @@ void Tag::warn(const SourceLocation& where, const std::string& message) const {
 }
 
 void Tag::forgive(const SourceLocation& where, const std::string& what, std::string found, std::string wanted,
-                  const std::string& instead) const {
+                  const std::string& instead, Difference difference) const {
   reading_->forgive({fmt::format("{}: {}", thing_, what), where, std::move(found), std::move(wanted)},
-                    instead);
+                    instead, difference);
 }
 
 void Tag::forgiveAt(const char* attribute, std::string found, std::string wanted,

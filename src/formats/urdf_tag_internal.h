@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "formats/difference.h"
 #include "formats/xml_reader_internal.h"
 #include "geometry/pose.h"
 
@@ -16,13 +17,19 @@ namespace rex::urdf {
 /// What is noticed while reading: the first thousand findings, and how often what is known was ignored.
 class Notes {
  public:
-  void warn(const SourceLocation& where, const std::string& message);
+  void warn(const SourceLocation& where, const std::string& message,
+            Difference difference = Difference::kNone);
   /// A tag of a kind that we know and do not use.
-  void ignore(const SourceLocation& where, const std::string& kind);
-  /// A finding that may come up often: listed once, with its first place and how often.
-  void remark(const SourceLocation& where, const std::string& message);
-  /// An attribute of a tag, neither of which is a mistake; all those of a tag share a note.
-  void leaveOut(const SourceLocation& where, const std::string& tag, const std::string& attribute);
+  void ignore(const SourceLocation& where, const std::string& kind,
+              Difference difference = Difference::kNone);
+  /// A finding that may come up often: listed once, with its first place and how often. A warning if contact
+  /// or motion differs.
+  void remark(const SourceLocation& where, const std::string& message,
+              Difference difference = Difference::kNone);
+  /// An attribute of a tag, neither of which is a mistake; those of a tag for which the same differs share a
+  /// note or warning.
+  void leaveOut(const SourceLocation& where, const std::string& tag, const std::string& attribute,
+                Difference difference);
   /// Takes over what was noticed in a file that belongs to this one.
   void add(Notes other);
   bool isFull() const { return found_.size() >= kMost; }
@@ -33,6 +40,7 @@ class Notes {
   struct Remark {
     SourceLocation first;
     int count = 0;
+    Difference difference = Difference::kNone;
   };
   struct LeftOut {
     SourceLocation first;
@@ -41,8 +49,13 @@ class Notes {
   Diagnostics found_;
   std::size_t unlisted_ = 0;
   std::map<std::string, Remark> remarks_;
-  std::map<std::string, LeftOut> leftOut_;
+  std::map<std::pair<std::string, Difference>, LeftOut> leftOut_;
 };
+
+/// Whether a strict reading refuses what makes such a difference.
+[[nodiscard]] inline bool isGrave(Difference difference) {
+  return difference == Difference::kContact || difference == Difference::kMotion;
+}
 
 /// A file that is being read, and what was noticed in it.
 struct Reading {
@@ -52,12 +65,16 @@ struct Reading {
 
   /// For a fault that other readers of URDF live with: throws Error if this one is strict, else warns of it
   /// and of what is done instead.
-  void forgive(ErrorParts fault, const std::string& instead);
+  void forgive(ErrorParts fault, const std::string& instead, Difference difference = Difference::kNone);
 };
 
 /// What a tag may hold; everything else is worth a warning.
 struct Known {
-  std::vector<std::string> attributes, children, ignoredChildren{}, ignoredAttributes{};
+  std::vector<std::string> attributes, children, ignoredChildren{};
+  /// What differs if other attributes, or children, "<child>", are left out. Nothing: not worth a note.
+  std::map<std::string, Difference> leftOut{};
+  std::vector<std::string> refused{};  ///< children that are known, but cannot be left out
+  bool refusesOthers = false;          ///< children that are in no list
 };
 
 /// An element with typed access to what it holds. Throws Error with the place for what is wrong with it.
@@ -111,6 +128,8 @@ class Tag {
   Pose origin() const;
 
   void warn(const SourceLocation& where, const std::string& message) const;
+  /// Warns that something differs or, if the reading is strict, throws Error.
+  void warn(const SourceLocation& where, const std::string& message, Difference difference) const;
   /// The same for a message that costs time, and is only made while it is listed.
   template <class Message>
   requires std::is_invocable_v<Message>
@@ -120,18 +139,23 @@ class Tag {
   bool isStrict() const { return reading_->strict; }
   /// Reading::forgive() of a fault of this tag.
   void forgive(const SourceLocation& where, const std::string& what, std::string found, std::string wanted,
-               const std::string& instead) const;
+               const std::string& instead, Difference difference = Difference::kNone) const;
   /// The same for the value of an attribute.
   void forgiveAt(const char* attribute, std::string found, std::string wanted,
                  const std::string& instead) const;
-  void ignore(const std::string& kind) const { reading_->notes.ignore(where(), kind); }
-  void remark(const std::string& message) const { reading_->notes.remark(where(), message); }
+  /// Throw Error if contact or motion differs and the reading is strict.
+  void ignore(const std::string& kind, Difference difference = Difference::kNone) const;
+  void remark(const std::string& message, Difference difference = Difference::kNone) const;
+  void leaveOut(const char* attribute, Difference difference) const;
   [[noreturn]] void fail(const SourceLocation& where, const std::string& what, std::string found,
                          std::string wanted, std::vector<std::string> nearest = {}) const;
   [[noreturn]] void failAt(const char* attribute, std::string found, std::string wanted) const;
 
  private:
   Tag(const Tag& parent, const xml::Element& element);
+  void expectAttribute(const xml::Attribute& attribute, const Known& known) const;
+  void expectChild(const xml::Element& child, const Known& known) const;
+  void refuseIfStrict(const SourceLocation& where, const std::string& message, Difference difference) const;
   const xml::Attribute* find(std::string_view attribute) const;
   const xml::Attribute& need(std::string_view attribute) const;
 

@@ -348,6 +348,22 @@ TEST(MjcfPeers, AgreeOnMeshes) {
   expectSame(xml, readMjcf(folder.path() / "m.xml").spec, 1e-6);
 }
 
+// Meshes that stand in the model, and what moves their vertices.
+TEST(MjcfPeers, AgreeOnMeshesInTags) {
+  for (const std::string mesh : {"", "refpos='.1 .2 .3'", "refquat='.8 .3 -.2 .1'",
+                                 "refpos='.1 .2 .3' refquat='.8 .3 -.2 .1' scale='2 2 2'",
+                                 "refpos='.1 .2 .3' refquat='1 0 1 0' scale='-2 -3 4'"}) {
+    const std::string xml =
+        "<mujoco><compiler exactmeshinertia='true'/><asset><mesh name='m' vertex='0 0 0  1 0 0  .2 1.5 0  0 "
+        ".3 .7' face='0 2 1  0 1 3  1 2 3  0 3 2' " +
+        mesh +
+        "/></asset><worldbody><body name='a'><freejoint/><geom type='mesh' mesh='m' pos='1 0 0' "
+        "euler='30 0 10'/><geom size='.1'/></body></worldbody></mujoco>";
+    SCOPED_TRACE(mesh);
+    expectSame(xml, parseMjcf(xml, "m.xml").spec, 1e-5);
+  }
+}
+
 // Of samples that are concave or open. Without exactmeshinertia, version 2.2.2 counts even more than later
 // ones, whose numbers mjcf_reader_test.cpp has.
 TEST(MjcfPeers, AgreeOnExactMeshes) {

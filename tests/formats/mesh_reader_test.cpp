@@ -96,6 +96,49 @@ TEST_F(MeshReader, ReadsMaterialsOfObj) {
   for (const auto& part : plain.parts()) EXPECT_FALSE(part.color.has_value()) << "no material";
 }
 
+// What nobody defines has no colour; of assimp it would have a grey one.
+TEST_F(MeshReader, KnowsNoColorWithoutALibrary) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  write("two.mtl", "newmtl  dark red \r\nKd 0.5 0 0\r\n\tnewmtl steel\nKd 1 1 1\nnewmtl\n");
+  const auto color = [&](const std::string& material, const std::string& library) {
+    return readMesh(write("a.obj", library + triangle + "usemtl " + material + "\nf 1 2 3\n"))
+        .parts()[0]
+        .color;
+  };
+  EXPECT_FALSE(color("steel", "")) << "no library";
+  EXPECT_FALSE(color("steel", "mtllib gone.mtl\n"));
+  EXPECT_FALSE(color("steel", "mtllib two.mtl\n")) << "not in the library";
+  const auto red = color("dark red", "mtllib two.mtl\n");
+  ASSERT_TRUE(red);
+  EXPECT_FLOAT_EQ((*red)[0], .5f);
+}
+
+// As MuJoCo writes them: counts, positions, normals, points in textures, faces.
+TEST_F(MeshReader, ReadsMeshesOfMujoco) {
+  std::string bytes;
+  const auto add = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  add(std::array<std::int32_t, 4>{4, 1, 1, 4});
+  add(std::array<float, 12>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
+  add(std::array<float, 5>{0, 0, 1, .5f, .5f});
+  const std::size_t faces = bytes.size();
+  add(std::array<std::int32_t, 12>{0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2});
+  EXPECT_NEAR(volumeOf(readMesh(write("a.msh", bytes))), 1. / 6, 1e-6);
+  EXPECT_REX_ERROR(parseMesh(bytes + "x", "a.msh"),
+                   "a.msh: MSH file: found 117 bytes after its counts, wanted 116");
+  EXPECT_REX_ERROR(parseMesh("$MeshFormat", "a.msh"),
+                   "a.msh: MSH file: found 11 bytes, wanted MuJoCo's format");
+  EXPECT_REX_ERROR(parseMesh("$MeshFormat 2.2 0 8", "a.msh"), "a.msh: MSH file: found 1936018724 vertices");
+  std::string wrong = bytes;
+  wrong[faces] = 4;
+  EXPECT_REX_ERROR(parseMesh(wrong, "a.msh"),
+                   "a.msh: MSH file: found a face with corner 4, wanted indices below 4");
+  std::string points = bytes.substr(0, faces);
+  points[12] = 0;
+  EXPECT_NEAR(volumeOf(parseMesh(points, "a.msh")), 1. / 6, 1e-6) << "the hull";
+}
+
 TEST_F(MeshReader, ReadsPlyWithAndWithoutFaces) {
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
@@ -361,6 +404,23 @@ std::string chain(int length) {
   for (int i = 1; i < length; ++i)
     nodes += R"({"translation": [0, 0, 0.001], "children": [)" + std::to_string(i) + "]}, ";
   return nodes + R"({"mesh": 0})";
+}
+
+// 2^n nodes of n lines: refused before assimp makes them.
+TEST_F(MeshReader, RefusesColladaThatRepeatsItself) {
+  const auto file = [](int levels) {
+    std::string text = "<COLLADA><library_nodes>\n<node id='n0'/><node id = 'x'></node>";
+    for (int i = 1; i <= levels; ++i) {
+      const std::string one = "<instance_node url=\"#n" + std::to_string(i - 1) + "\"/>";
+      text += "<node name='n' id='n" + std::to_string(i) + "'>" + one + one + "</node>\n";
+    }
+    return text + "</library_nodes></COLLADA>";
+  };
+  EXPECT_REX_ERROR(
+      parseMesh(file(40), "a.dae"),
+      "a.dae: mesh file: found nodes that repeat each other too often, wanted at most 100000 when "
+      "all are repeated");
+  EXPECT_REX_ERROR(parseMesh(file(2), "a.dae"), "a.dae: cannot read the mesh file");
 }
 
 TEST_F(MeshReader, RefusesDeepGltf) {

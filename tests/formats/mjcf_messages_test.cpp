@@ -230,10 +230,11 @@ TEST(MjcfMessages, OfGeoms) {
       {blank,
        "warning: body 'a': <geom>: attribute 'rgba': found nothing, wanted numbers; it counts as not given"},
       {body("@<geom size='1' material='x'/><geom size='1' material='x'/>"),
-       "note: unknown material 'x': the geom keeps its own colour (2 times)"},
+       "note: unknown material 'x': the geom keeps its own colour: the picture will differ (2 times)"},
       {world("@<geom type='mesh' mesh='m'/><geom mesh='m'/>").insert(9, "<asset><mesh name='m'/></asset>"),
-       "note: a <geom> whose mesh has no file is ignored, with its mass (2 times)"},
-      {world("@<geom type='sdf'/>"), "note: a <geom> of type 'sdf' is ignored"},
+       "warning: a <geom> whose mesh is not read is ignored, with its mass: motion will differ (2 times)"},
+      {world("@<geom type='sdf'/>"),
+       "warning: a <geom> of type 'sdf' is ignored, with its mass: motion will differ"},
   });
 }
 
@@ -295,13 +296,26 @@ TEST(MjcfMessages, OfJoints) {
        "warning: body 'a': <joint>: attribute 'range': found '2 1', wanted a lower limit that is not above "
        "the upper; "
        "the joint has no range"},
-      {body("@<joint type='ball' range='0 1'/>"), "note: the range of a <joint> of type 'ball' is ignored"},
+      {body("@<joint type='ball' range='0 1'/>"),
+       "warning: the range of a <joint> of type 'ball' is ignored: motion will differ"},
       {body("@<joint range='0 1'/>").insert(9, "<compiler autolimits='false'/>"),
        "note: range of <joint> has no effect: autolimits is off, and limited is not given"},
       {body("@<joint name='j' type='slide' range='1 2'/><joint type='slide' range='3 4'/>"),
        "warning: joint 'j' starts outside its range, 1 to 2, and so does another joint"},
-      {body("<joint @armature='1'/><joint armature='1' stiffness='2'/>"),
-       "note: <joint>: attributes that are not read: armature (2 times), stiffness"},
+      {body("<joint @springdamper='1 1'/><joint springdamper='1 1' margin='2' armature='1' stiffness='2'/>"),
+       "warning: <joint>: motion will differ: attributes that are not read: armature, margin, springdamper "
+       "(2 "
+       "times), stiffness"},
+      {body("<joint type='ball' @armature='1' stiffness='2'/>"),
+       "warning: <joint>: motion will differ: attributes that are not read: armature, stiffness"},
+      {body("<joint @stiffness='2' springref='3'/><joint stiffness='0' springref='3' armature='0'/>"),
+       "warning: <joint>: motion will differ: attributes that are not read: springref, stiffness"},
+      {body("<joint type='free' stiffness='0' @armature='2'/>"),
+       "warning: <joint>: motion will differ: attributes that are not read: armature"},
+      {world("<body @gravcomp='1'/><body gravcomp='0'/>"),
+       "warning: <body>: motion will differ: attributes that are not read: gravcomp"},
+      {world("<body><freejoint @align='true'/></body><body><freejoint align='auto'/></body>"),
+       "warning: <freejoint>: motion will differ: attributes that are not read: align"},
   });
 }
 
@@ -311,10 +325,13 @@ TEST(MjcfMessages, OfActuators) {
        "<actuator>: <motor>: unknown joint: found 'bal', wanted the name of a joint (did you mean 'ball'?)"},
   });
   checkNotes({
-      {jointed("<actuator><motor tendon='t'/>@<motor joint='ball'/></actuator>"),
-       "note: an actuator of a joint of type 'ball' or 'free' is ignored\nf:3:11: note: an actuator of "
-       "something other than a joint is ignored"},
-      {jointed("<actuator>@<muscle joint='j'/></actuator>"), "note: <muscle> is ignored"},
+      {jointed("<actuator><motor tendon='t'/>@<motor joint='ball'/><motor site='s'/></actuator>"),
+       "warning: an actuator of a joint of type 'ball' or 'free' is ignored: motion will differ\nf:3:11: "
+       "warning: an actuator of a spatial tendon is ignored: motion will differ\nf:3:51: warning: an "
+       "actuator "
+       "of something other than a joint is ignored: motion will differ"},
+      {jointed("<actuator>@<muscle joint='j'/></actuator>"),
+       "warning: <muscle> is ignored: motion will differ"},
   });
 }
 
@@ -341,17 +358,24 @@ TEST(MjcfMessages, OfEqualities) {
        "<equality>: <connect>: too many <connect>: wanted at most 1000"},
   });
   checkNotes({
-      {equal("@<joint joint1='j'/>"), "note: a <joint> in <equality> that holds a joint in place is ignored"},
+      {equal("@<joint joint1='j'/>"),
+       "warning: a <joint> in <equality> that holds a joint in place is ignored: motion will differ"},
       {equal("@<joint joint1='j' joint2='k' polycoef='0 1 .5'/>"),
-       "note: a <joint> in <equality> with a polynomial of higher degree is ignored"},
+       "warning: a <joint> in <equality> with a polynomial of higher degree is ignored: motion will differ"},
       {equal("<joint joint1='j' joint2='k'/><joint joint1='@j' joint2='k'/>"),
-       "warning: <equality>: <joint>: 'j' already follows another joint; this is ignored"},
+       "warning: <equality>: <joint>: 'j' already follows another joint; this is ignored; motion will "
+       "differ"},
       {equal("@<joint joint1='j' joint2='k'/>\n<joint joint1='k' joint2='j'/>"),
-       "warning: <equality>: <joint>: joints that follow each other in a loop; this is ignored\nf:4:1: "
+       "warning: <equality>: <joint>: joints that follow each other in a loop; this is ignored; motion will "
+       "differ\nf:4:1: "
        "warning: "
-       "<equality>: <joint>: joints that follow each other in a loop; this is ignored"},
+       "<equality>: <joint>: joints that follow each other in a loop; this is ignored; motion will differ"},
       {equal("@<weld/><weld/><connect site1='a' site2='b'/>"),
-       "note: <weld> is ignored (2 times)\nf:3:25: note: a <connect> of sites is ignored"},
+       "warning: <weld> is ignored: motion will differ (2 times)\nf:3:25: warning: a <connect> of sites is "
+       "ignored: motion will differ"},
+      {equal("@<tendon tendon1='t'/>"),
+       "warning: a <tendon> in <equality>, except with <fixed> ones that couple two joints linearly, is "
+       "ignored: motion will differ"},
   });
 }
 
@@ -376,17 +400,60 @@ TEST(MjcfMessages, OfContacts) {
 
 TEST(MjcfMessages, OfWhatIsNotRead) {
   checkNotes({
-      {model("@<option timestep='.01' gravity='0 0 -9.81'/>"), "note: <option> is ignored"},
-      {model("<option gravity='@0 0 0'/>"),
-       "warning: <option>: rex always computes with a gravity of 9.81 m/s^2 along -z\nf:2:1: note: <option> "
-       "is "
-       "ignored"},
-      {model("@<sensor/><tendon/><sensor/>"),
-       "note: <sensor> is ignored (2 times)\nf:2:10: note: <tendon> is ignored"},
-      {model("@<actuators/>"),
-       "warning: <mujoco>: unknown tag <actuators> is ignored (did you mean 'actuator'?)"},
+      {model("<option timestep='.01' gravity='@0 0 0' density='0'/>"),
+       "warning: <option>: rex always computes with a gravity of 9.81 m/s^2 along -z; motion will differ"},
+      {model("<option density='1.2' viscosity='0' @impratio='10'/>"),
+       "warning: <option>: contact will differ: attributes that are not read: impratio\nf:2:9: warning: "
+       "<option>: motion will differ: attributes that are not read: density"},
+      {model("<option><flag @gravity='disable' filterparent='enable' energy='enable'/></option>"),
+       "warning: <flag>: motion will differ: attributes that are not read: gravity"},
+      {model("@<visual/><sensor/><visual/>"), "note: <visual> is ignored: the picture will differ (2 times)"},
+      {model("<compiler @alignfree='true'/><compiler alignfree='false'/>"),
+       "warning: <compiler>: motion will differ: attributes that are not read: alignfree"},
       {"\n @<?xml version='1.0'?><mujoco/>",
        "warning: not well-formed XML: blanks before the declaration; they are skipped"},
+  });
+}
+
+// Bodies do not vanish, nor what a later version of MuJoCo may know.
+TEST(MjcfMessages, OfWhatCannotBeLeftOut) {
+  const std::string wanted =
+      " is not read: wanted its bodies as <body>, as MuJoCo writes them when it saves a model";
+  check({
+      {body("@<composite/>"), "body 'a': <composite>" + wanted},
+      {world("<frame>@<flexcomp/></frame>"), "<worldbody>: <frame>: <flexcomp>" + wanted},
+      {world("@<attach/>"), "<worldbody>: <attach>" + wanted},
+      {model("@<actuators/>"),
+       "<mujoco>: unknown tag <actuators>: wanted one of MuJoCo's (did you mean 'actuator'?)"},
+      {body("<replicate count='@0'/>"),
+       "body 'a': <replicate>: attribute 'count': found '0', wanted a whole number > 0"},
+      {body("@<replicate count='10001'/>"), "body 'a': <replicate>: too many replicas: wanted at most 10000"},
+  });
+}
+
+TEST(MjcfMessages, OfMeshesInTags) {
+  const auto mesh = [](const std::string& attributes) {
+    return model("<asset><mesh name='m' " + attributes + "/></asset>");
+  };
+  check({
+      {mesh("vertex='@0 0 0 1 0 0 0 1 0'"),
+       "<asset>: <mesh>: attribute 'vertex': found '0 0 0 1 0 0 0 1 0', wanted 12 to 3000000 numbers"},
+      {mesh("vertex='@0 0 0 1 0 0 0 1 0 0 0 1 1'"),
+       "<asset>: <mesh>: attribute 'vertex': found 13 numbers, wanted three for each vertex or face"},
+      {mesh("vertex='0 0 0 1 0 0 0 1 0 0 0 1' face='@0 1 4'"),
+       "<asset>: <mesh>: attribute 'face': found a corner 4, wanted whole numbers from 0 to 3, one below the "
+       "number of vertices"},
+      {mesh("vertex='0 0 0 1 0 0 2 0 0 0 0 1' face='@0 1 2'"),
+       "<asset>: <mesh>: attribute 'face': found triangles without an area, wanted a surface"},
+      {mesh("builtin='@plate'"),
+       "<asset>: <mesh>: attribute 'builtin': found 'plate', wanted sphere, or a mesh in a file"},
+      {mesh("builtin='sphere' params='@5'"),
+       "<asset>: <mesh>: attribute 'params': found '5', wanted a whole number from 0 to 4"},
+      {mesh("file='a.stl' refquat='@0 0 0 0'"),
+       "<asset>: <mesh>: attribute 'refquat': found '0 0 0 0', wanted a quaternion w x y z"},
+      {mesh("file='a.stl' refquat='@1 .5 0 0' scale='1 1 2'"),
+       "<asset>: <mesh>: attribute 'refquat': found a 'scale' that differs along the turned axes, wanted one "
+       "factor for all axes"},
   });
 }
 
@@ -402,11 +469,11 @@ TEST(MjcfMessages, OfFreeBases) {
 
 TEST(MjcfMessages, KeepNotesOfFailures) {
   Diagnostics notes;
-  EXPECT_THROW(static_cast<void>(parseMjcf("<mujoco><sensor/><worldbody><geom/></worldbody></mujoco>", "f",
+  EXPECT_THROW(static_cast<void>(parseMjcf("<mujoco><visual/><worldbody><geom/></worldbody></mujoco>", "f",
                                            {.notesOfFailure = &notes})),
                Error);
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_EQ(toString(notes[0]), "f:1:9: note: <sensor> is ignored");
+  EXPECT_EQ(toString(notes[0]), "f:1:9: note: <visual> is ignored: the picture will differ");
 }
 
 }  // namespace rex::mjcf_messages_test

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <numbers>
+#include <tuple>
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
@@ -712,6 +713,20 @@ TEST_F(MjcfFile, SaysWhatWeighsNothing) {
                    "<inertial> of the body, or the model in a file");
 }
 
+// As in MuJoCo, where the robot file alone says the colours, whatever a library of the mesh does.
+TEST_F(MjcfFile, IgnoresTheMaterialsOfMeshes) {
+  write("red.mtl", "newmtl red\nKd 1 0 0\nd 0\n");
+  write("red.obj", "mtllib red.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+  const SceneFile scene = readMjcf(write("m.xml",
+                                         "<mujoco><asset><mesh file='red.obj'/></asset><worldbody><geom "
+                                         "type='mesh' mesh='red' rgba='0 0 1 1'/></worldbody></mujoco>"));
+  EXPECT_THAT(notesOf(scene), IsEmpty());
+  const ShapeSpec& shape = scene.spec.worldShapes.at(0);
+  ASSERT_EQ(shape.shape.mesh.parts().size(), 1u);
+  EXPECT_FALSE(shape.shape.mesh.parts()[0].color);
+  EXPECT_EQ(shape.color, Eigen::Vector4d(0, 0, 1, 1));
+}
+
 TEST_F(MjcfFile, IncludesOthers) {
   write("parts/arm.xml",
         "<mujocoinclude><body name='arm'><include file='parts/geoms.xml'/></body></mujocoinclude>");
@@ -731,9 +746,10 @@ TEST_F(MjcfFile, IncludesOthers) {
   EXPECT_THAT(notes[0],
               HasSubstr("geoms.xml:1:41: warning: body 'arm': <geom>: unknown attribute 'sise' is ignored "
                         "(did you mean 'size'?)"));
-  EXPECT_THAT(notes[1], HasSubstr("m.xml:1:78: note: <site> is ignored (2 times)")) << "of both files";
-  EXPECT_THAT(notes[2],
-              HasSubstr("m.xml:1:66: note: <geom>: attributes that are not read: condim (2 times)"));
+  EXPECT_THAT(notes[1], HasSubstr("m.xml:1:66: warning: <geom>: contact will differ: attributes that are not "
+                                  "read: condim (2 times)"));
+  EXPECT_THAT(notes[2], HasSubstr("m.xml:1:78: note: <site> is ignored: the picture will differ (2 times)"))
+      << "of both files";
 }
 
 TEST_F(MjcfFile, RefusesIncludesThatCannotBe) {
@@ -810,6 +826,130 @@ TEST(MjcfReader, IsWrittenAndReadAgain) {
                          forwardKinematics(again, q)[again.body(one.name)], 1e-12));
   EXPECT_NEAR(again.mass(), model.mass(), 1e-12);
   EXPECT_EQ(again.collisionChoices().size(), model.collisionChoices().size());
+}
+
+// A mesh in the tag weighs, is drawn and touches as one in a file does.
+TEST(MjcfReader, ReadsMeshesInTags) {
+  const std::string corners = "vertex='0 0 0  2 0 0  0 2 0  0 0 2' ";
+  const auto geom = [&](const std::string& mesh) {
+    return body("<geom type='mesh' mesh='m' density='3'/>",
+                "<asset><mesh name='m' inertia='exact' " + mesh + "/></asset>");
+  };
+  const BodySpec whole = geom(corners + "face='0 2 1  0 1 3  1 2 3  0 3 2'");
+  EXPECT_NEAR(whole.mass, 3 * 8. / 6, 1e-9);
+  EXPECT_TRUE(whole.p_BBcm.isApproxToConstant(.5, 1e-9));
+  EXPECT_EQ(whole.shapes.at(0).shape.mesh.triangles().size(), 4u);
+  EXPECT_FALSE(whole.shapes[0].shape.hull.isEmpty());
+  EXPECT_NEAR(geom(corners).mass, 4, 1e-9) << "without faces, the hull";
+  EXPECT_NEAR(geom(corners + "scale='-2 1 1'").mass, 8, 1e-9);
+  EXPECT_NEAR(geom("builtin='sphere' params='4' scale='.5 .5 .5'").mass, 3 * 4 * pi / 3 / 8, .01);
+  EXPECT_LT(geom("builtin='sphere' params='0'").mass, geom("builtin='sphere' params='1'").mass);
+}
+
+// MuJoCo's order: less refpos, turned back by refquat, then scaled.
+TEST(MjcfReader, MovesMeshesByTheirReference) {
+  const std::string corners = "vertex='0 0 0  2 0 0  0 2 0  0 0 2' inertia='exact' ";
+  const auto center = [&](const std::string& mesh) {
+    return body("<geom type='mesh' mesh='m'/>", "<asset><mesh name='m' " + corners + mesh + "/></asset>")
+        .p_BBcm;
+  };
+  EXPECT_TRUE(center("refpos='1 2 3'").isApprox(Eigen::Vector3d(-.5, -1.5, -2.5), 1e-6));
+  // A quarter about z, back: x goes to -y.
+  const std::string quarter = "refquat='1 0 0 1' ";
+  EXPECT_TRUE(center(quarter + "refpos='1 0 0'").isApprox(Eigen::Vector3d(.5, .5, .5), 1e-6));
+  EXPECT_TRUE(center(quarter + "refpos='1 0 0' scale='2 3 4'").isApprox(Eigen::Vector3d(1, 1.5, 2), 1e-6));
+  EXPECT_TRUE(center("refquat='.9 .1 .2 .3' scale='-2 -2 -2'").norm() > 1.7);
+}
+
+TEST(MjcfReader, RepeatsWhatIsInReplicate) {
+  const SceneFile scene = world(
+      "<body name='hub'><replicate count='3' offset='0 0 1' euler='0 0 90' sep='-'>"
+      "<body name='arm' pos='1 0 0'><joint name='j'/><replicate count='2' offset='2 0 0'>"
+      "<geom name='g' size='.1'/></replicate></body></replicate></body>",
+      "<equality><joint joint1='j'/></equality><actuator><motor joint='j' forcerange='-2 2'/></actuator>"
+      "<contact><exclude body1='hub' body2='arm'/></contact>");
+  std::vector<std::string> names;
+  for (const BodySpec& one : scene.spec.bodies) names.push_back(one.name);
+  EXPECT_THAT(names, ElementsAre("hub", "arm-0", "arm-1", "arm-2"));
+  ASSERT_EQ(scene.spec.joints.size(), 3u);
+  EXPECT_EQ(scene.spec.joints[2].name, "j-2");
+  EXPECT_EQ(scene.spec.joints[2].maxEffort, 2);
+  EXPECT_EQ(scene.spec.collisionChoices.size(), 3u);
+  const auto at = [&](std::size_t j) { return scene.spec.joints[j].X_PF; };
+  EXPECT_TRUE(at(0).p.isApprox(Eigen::Vector3d(1, 0, 0), 1e-12));
+  EXPECT_TRUE(at(1).p.isApprox(Eigen::Vector3d(0, 1, 1), 1e-12));
+  EXPECT_TRUE(at(2).p.isApprox(Eigen::Vector3d(-1, 0, 2), 1e-12));
+  ASSERT_EQ(scene.spec.bodies[1].shapes.size(), 2u);
+  EXPECT_EQ(scene.spec.bodies[1].shapes[1].X_BS.p.x(), 2);
+  EXPECT_NEAR(scene.spec.bodies[1].mass, scene.spec.bodies[3].mass, 1e-12);
+}
+
+TEST(MjcfReader, CountsReplicasWithZerosInFront) {
+  const SceneFile scene = world("<replicate count='10' offset='1 0 0'><body name='a'/></replicate>");
+  ASSERT_EQ(scene.spec.bodies.size(), 10u);
+  EXPECT_EQ(scene.spec.bodies[3].name, "a03");
+  EXPECT_EQ(scene.spec.bodies[9].X_WB.p.x(), 9);
+}
+
+TEST(MjcfReader, LeavesOutForcesThatFlagsDisable) {
+  const auto with = [](const std::string& flags) {
+    return world("<body name='a'><joint damping='4' frictionloss='5' range='-1 1'/></body>",
+                 "<option><flag " + flags + "/></option>")
+        .spec.joints.at(0);
+  };
+  EXPECT_EQ(with("damper='disable'").damping, 0);
+  EXPECT_EQ(with("passive='disable'").damping, 0);
+  EXPECT_EQ(with("frictionloss='disable'").friction, 0);
+  EXPECT_EQ(with("limit='disable'").lower.size(), 0);
+  EXPECT_EQ(with("constraint='disable'").friction, 0);
+  EXPECT_EQ(with("constraint='disable'").damping, 4);
+}
+
+TEST(MjcfReader, LeavesOutWhatFlagsDisable) {
+  const auto with = [](const std::string& flag) {
+    return parse(
+               "<option><flag " + flag +
+               "='disable'/></option><worldbody><body name='a'><joint name='j'/><geom size='1'/><body "
+               "name='b'><joint name='k'/></body></body></worldbody><equality><joint joint1='j' joint2='k'/>"
+               "</equality>")
+        .spec;
+  };
+  EXPECT_EQ(with("energy").joints[0].mimic, "k");
+  EXPECT_EQ(with("equality").joints[0].mimic, "");
+  EXPECT_TRUE(with("equality").bodies[0].shapes[0].contact);
+  EXPECT_FALSE(with("contact").bodies[0].shapes[0].contact);
+}
+
+// c q + d p keeps its length, or one follows the other.
+TEST(MjcfReader, CouplesJointsByFixedTendons) {
+  const auto follower = [](const std::string& tendons, const std::string& equality) {
+    const SceneSpec spec =
+        parse(
+            "<compiler angle='radian'/><worldbody><body><joint name='j' ref='.5'/><body><joint name='k' "
+            "ref='2'/></body></body></worldbody><tendon>" +
+            tendons + "</tendon><equality><tendon " + equality + "/></equality>")
+            .spec;
+    const JointSpec& j = spec.joints.at(0);
+    return std::tuple(j.mimic, j.mimicRatio, j.mimicOffset);
+  };
+  const std::string both = "<fixed name='t'><joint joint='j' coef='2'/><joint joint='k' coef='-1'/></fixed>";
+  EXPECT_EQ(follower(both, "tendon1='t' polycoef='.5'"), std::tuple("k", .5, .5 + .25 - .5 * 2));
+  const std::string one =
+      "<fixed name='t'><joint joint='j' coef='2'/></fixed>"
+      "<fixed name='s'><joint joint='k' coef='4'/></fixed>";
+  EXPECT_EQ(follower(one, "tendon1='t' tendon2='s' polycoef='1 3'"), std::tuple("k", 6., .5 + .5 - 12));
+  EXPECT_EQ(follower(both, "tendon1='t' active='false'"), std::tuple("", 1., 0.));
+}
+
+TEST(MjcfReader, SharesTheForceOfATendon) {
+  const SceneSpec spec =
+      parse(
+          "<worldbody><body><joint name='j'/><body><joint name='k'/></body></body></worldbody><tendon>"
+          "<fixed name='t'><joint joint='j' coef='.5'/><joint joint='k' coef='-2'/></fixed></tendon>"
+          "<actuator><general tendon='t' forcerange='-5 5'/><motor joint='k' ctrlrange='0 1'/></actuator>")
+          .spec;
+  EXPECT_EQ(spec.joints[0].maxEffort, 2.5);
+  EXPECT_EQ(spec.joints[1].maxEffort, 11);
 }
 
 }  // namespace rex::mjcf_reader_test

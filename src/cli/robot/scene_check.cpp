@@ -1,11 +1,16 @@
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "cli/results_internal.h"
 #include "cli/robot/scene_verbs.h"
 #include "cli/terminal.h"
+#include "formats/difference.h"
 
 namespace rex::cli {
 namespace {
@@ -39,6 +44,23 @@ Json message(const char* severity, const SourceLocation& where, const std::strin
           {"text", text}};
 }
 
+// " What will differ: motion (2), picture (1); ..." by the number of findings, or nothing.
+std::string differences(const Diagnostics& notes) {
+  constexpr std::pair<Difference, const char*> kKinds[] = {
+      {Difference::kMotion, "motion"}, {Difference::kContact, "contact"}, {Difference::kPicture, "picture"}};
+  std::vector<std::string> counts;
+  bool isRefused = false;
+  for (const auto& [difference, word] : kKinds) {
+    const auto count = std::ranges::count(notes, difference, differenceIn);
+    if (count == 0) continue;
+    counts.push_back(fmt::format("{} ({})", word, count));
+    isRefused = isRefused || difference != Difference::kPicture;
+  }
+  if (counts.empty()) return "";
+  return fmt::format(". What will differ: {}{}", join(counts, ", "),
+                     isRefused ? "; --strict refuses what differs in motion or contact" : "");
+}
+
 Results resultsOf(const Verdict& verdict) {
   Results all{.json = {{"file", verdict.file}, {"ok", !verdict.error}, {"messages", Json::array()}}};
   Json& messages = all.json["messages"];
@@ -55,8 +77,9 @@ Results resultsOf(const Verdict& verdict) {
     const SourceLocation where = std::exchange(parts.where, {});
     messages.push_back(message("error", where, Error(std::move(parts)).what()));
   } else {
-    all.line("{}: loads{}", escapeForTerminal(verdict.file),
-             warnings == 0 ? "" : fmt::format(", with {} warning{}", warnings, warnings == 1 ? "" : "s"));
+    all.line("{}: loads{}{}", escapeForTerminal(verdict.file),
+             warnings == 0 ? "" : fmt::format(", with {} warning{}", warnings, warnings == 1 ? "" : "s"),
+             differences(verdict.notes));
   }
   return all;
 }
