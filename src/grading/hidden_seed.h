@@ -19,8 +19,8 @@ namespace rex::grading {
 /// that a file that is empty by mistake is not taken for a secret.
 [[nodiscard]] std::string readCourseSecret(const std::filesystem::path& file);
 
-/// What to say about a file of the secret that its group or others may read; empty if only its owner may, or if
-/// there is none.
+/// What to say about a file of the secret that its group or others may read; empty if only its owner may, or
+/// if there is none.
 [[nodiscard]] std::string openSecretWarning(const std::filesystem::path& file);
 
 /// Eight digits of the secret's hash, which identify it in results; empty if there is no secret.

@@ -18,8 +18,8 @@ namespace rex::submission {
                                                    const std::vector<std::string>& flags);
 
 /// Makes `prefix`, and beside it what prefixFlags() looks for, unless it is there and current. Throws Error
-/// if the toolchain's compiler refuses the header, or is not done after `longest` seconds; then nothing that it
-/// wrote is left.
+/// if the toolchain's compiler refuses the header, or is not done after `longest` seconds; then nothing that
+/// it wrote is left.
 void makePrefix(const std::filesystem::path& prefix, const Toolchain& toolchain, double longest = 300);
 
 /// Whether a source includes "exercise.h" or "course/course.h" before anything except blank lines, //

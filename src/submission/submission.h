@@ -47,8 +47,8 @@ struct BuiltSubmission {
 [[nodiscard]] BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                               const SubmissionOptions& options);
 
-/// The second step, which may be repeated with other seeds. For the second pass of a job, `built.start` is the
-/// result of the first.
+/// The second step, which may be repeated with other seeds. For the second pass of a job, `built.start` is
+/// the result of the first.
 [[nodiscard]] grading::GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain,
                                               const ExerciseInfo& exercise, const SubmissionOptions& options);
 

@@ -37,8 +37,8 @@ struct WorkerPartOrder {
 /// Links the worker's loop with only those parts of the library that graded functions may call or that
 /// these need: worker_part.o, and worker_part.ID.o for each part of the exercise with its own worker. What
 /// exercise.toml forbids is then not in the worker's memory. The names that a student's file may use go
-/// into worker.offers. Also links the program controlProgram(). Throws Error if an allowed name does not exist, or if an allowed function needs a
-/// forbidden one.
+/// into worker.offers. Also links the program controlProgram(). Throws Error if an allowed name does not
+/// exist, or if an allowed function needs a forbidden one.
 void linkWorkerParts(const WorkerPartOrder& order);
 
 /// The linker options file for worker_part.o: the third-party libraries that it needs, and no others.

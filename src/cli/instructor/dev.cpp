@@ -50,9 +50,10 @@ void addDevStrip(CLI::App* dev, Action& action) {
     bool release = false;
   };
   const auto words = std::make_shared<Words>();
-  CLI::App* command = addVerb(dev, "strip", "Make main.cpp from solution.cpp",
-                              "Example: scripts/rex dev strip 01\n\n"
-                              "`rex dev release DIR` does so for the tree that students' packages are built from.");
+  CLI::App* command =
+      addVerb(dev, "strip", "Make main.cpp from solution.cpp",
+              "Example: scripts/rex dev strip 01\n\n"
+              "`rex dev release DIR` does so for the tree that students' packages are built from.");
   command->add_option("EXERCISE", words->exercise, "exercise whose main.cpp is written")->type_name("");
   // Earlier versions made the release with these options: say what to use now instead of "unknown option".
   command->add_flag("--release", words->release)->group("");

@@ -310,7 +310,8 @@ std::string missingHeader(const Project& project, const std::vector<std::string>
   const ProcessResult run = runProcess(command, {.input = text});
   if (run.ok() || !run.started) return {};  // that there is no compiler is said elsewhere
   const std::size_t error = run.error.find("error: ");
-  return run.error.substr(error == std::string::npos ? 0 : error + 7, run.error.find('\n', error) - error - 7);
+  return run.error.substr(error == std::string::npos ? 0 : error + 7,
+                          run.error.find('\n', error) - error - 7);
 }
 
 // A build that was interrupted installs only some of them, and a broken one not all headers.

@@ -143,9 +143,10 @@ TEST_F(InstalledDoctor, FindsThatAHeaderOfTheLibraryIsMissing) {
   const Ended ended =
       rexWith({.root = root(), .build = build(), .installed = root()}, {"doctor", "--gl", "osmesa"});
   EXPECT_EQ(ended.code, 3);
-  EXPECT_THAT(flat(ended.output),
-              HasSubstr("exercises fails a header of the library is missing: systems/no_such_model.h: No such "
-                        "file or directory; install rex again"));
+  EXPECT_THAT(
+      flat(ended.output),
+      HasSubstr("exercises fails a header of the library is missing: systems/no_such_model.h: No such "
+                "file or directory; install rex again"));
 }
 
 TEST_F(Doctor, IsContentWithOneWayToOpenGl) {
