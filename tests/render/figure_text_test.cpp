@@ -50,7 +50,6 @@ Places places() {
   return {{"title", [](Figure& f) -> std::string& { return f.title; }},
           {"xLabel", [](Figure& f) -> std::string& { return f.xLabel; }},
           {"yLabel", [](Figure& f) -> std::string& { return f.yLabel; }},
-          {"name beside the axis", [](Figure& f) -> std::string& { return f.yNames[0]; }},
           {"colorLabel", [](Figure& f) -> std::string& { return f.colorLabel; }},
           {"series", [](Figure& f) -> std::string& { return f.series[0].label; }},
           {"vertical line", [](Figure& f) -> std::string& { return f.verticalLines[0].label; }},
