@@ -21,7 +21,6 @@ Figure flat() {
   return {.title = "title",
           .xLabel = "x [m]",
           .yLabel = "y [m]",
-          .yNames = {"a name"},
           .colorLabel = "cost [1]",
           .series = {{.label = "series", .y = {0, 1}}},
           .verticalLines = {{.at = 1, .label = "upright"}},
