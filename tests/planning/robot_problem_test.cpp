@@ -80,7 +80,8 @@ TEST(RobotProblem, SaysWhichShapesAreInTheWay) {
   EXPECT_REX_ERROR(static_cast<void>(connectRrts(problem, {}, rng)), "in overlap, wanted a valid one");
   EXPECT_EQ(
       nearestContact(scene("body a { type=1 size=[0 0 0 1] contact }"),
-                     ContactModel(scene("body a { type=1 size=[0 0 0 1] contact }")), Eigen::VectorXd()),
+                     ContactModel(scene("body a { type=1 size=[0 0 0 1] contact }")), Eigen::VectorXd())
+          .text,
       "all shapes apart");
 }
 
