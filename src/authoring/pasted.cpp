@@ -68,8 +68,8 @@ class Shown {
     for (const char* place : {"share/examples", "share/demonstrations"})
       for (const fs::path& file : sourcesBelow(context.root / place, ".cpp"))
         addApart(file.lexically_relative(context.root).generic_string(), file, {});
-    for (const std::string& layer : publicLayers(context.root))
-      for (const fs::path& file : sourcesBelow(context.root / "src" / layer, ".h"))
+    for (const std::string& module : publicModules(context.root))
+      for (const fs::path& file : sourcesBelow(context.root / "src" / module, ".h"))
         if (!file.string().ends_with("_internal.h"))
           sources_.push_back({.name = file.lexically_relative(context.root).generic_string(),
                               .text = readTextFile(file),
@@ -96,17 +96,14 @@ class Shown {
   }
 
  private:
-  // The modules whose headers packages have.
-  static std::vector<std::string> publicLayers(const fs::path& root) {
-    const fs::path file = root / "share/cmake/RexInstall.cmake";
-    const std::string text = fs::exists(file) ? readTextFile(file) : "";
-    const std::size_t list = text.find("set(REX_PUBLIC_LAYERS ");
-    if (list == text.npos) return {""};  // all
-    const std::size_t first = text.find(' ', list);
-    std::vector<std::string> layers;
-    for (const std::string_view word : splitWords(text.substr(first, text.find(')', first) - first)))
-      layers.emplace_back(word);
-    return layers;
+  // The modules whose headers packages have, lines such as "4 dynamics public".
+  static std::vector<std::string> publicModules(const fs::path& root) {
+    std::vector<std::string> modules;
+    for (const std::string_view line : splitLines(readTextFile(root / "share/layers.txt")))
+      if (const std::vector<std::string_view> words = splitWords(line);
+          words.size() == 3 && words[2] == "public")
+        modules.emplace_back(words[1]);
+    return modules;
   }
 
   static std::vector<fs::path> sourcesBelow(const fs::path& folder, const std::string& ending) {
@@ -314,7 +311,11 @@ class PasteGrader {
     pastes_ = Pasting(shown_, tasksIn(reference_, functions)).take();
     const std::size_t last = reference_.rfind("\n#include ");
     const std::size_t at = last == reference_.npos ? 0 : reference_.find('\n', last + 1) + 1;
-    const std::string preamble = shown_.preamble(pastes_);
+    std::string preamble = shown_.preamble(pastes_);
+    // The library may have functions of the same names in headers that the exercise does not include.
+    for (const ShownCode& helper : functionsIn(reference_))
+      if (!helper.isLambda && !isIn(functions, helper.name))
+        preamble += fmt::format("#define {0} {0}OfTheStudent\n", helper.name);
     reference_.insert(at, preamble);
     tasks_ = tasksIn(reference_, functions);
     std::erase_if(tasks_, [&](const ShownCode& code) {  // others of the same name
@@ -343,7 +344,8 @@ class PasteGrader {
       if (!build.holds(next))
         throw Error(
             {.what = fmt::format("{}: the function as handed out cannot be graded among the pasted ones",
-                                 tasks_[task].name)});
+                                 tasks_[task].name),
+             .found = build.complaint()});
       judge(task, build, next++, files, all);
     }
     return all;

@@ -164,6 +164,10 @@ std::vector<std::string> JointBuild::symbols() const {
 
 bool JointBuild::holds(std::size_t variant) const { return !functions_[variant].empty(); }
 
+std::string JointBuild::complaint() const {
+  return object_.ok || object_.messages.empty() ? "" : toString(object_.messages.front());
+}
+
 // The scan of compileStudent() over everything that these functions reach. Whatever the rest of the file
 // calls, the solution calls, too.
 std::vector<grading::CompileDiagnostic> JointBuild::forbiddenCalls(std::size_t variant) const {

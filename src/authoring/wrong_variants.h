@@ -59,6 +59,9 @@ class JointBuild {
   /// Whether a variant was compiled, so that its functions can replace those of the reference.
   bool holds(std::size_t variant) const;
 
+  /// What the compiler says first if it compiles none of them; empty if it does.
+  std::string complaint() const;
+
   /// The worker of a compiled variant, or the forbidden calls of its functions, as buildSubmission() would
   /// report for the whole file. The next call overwrites the worker. Throws Error if the tools fail.
   submission::BuiltSubmission link(std::size_t variant) const;
