@@ -58,7 +58,7 @@ inline void growsFromBoth(rex::grading::Check& check, Student& student, const st
   const EdgeTest isFree = freeIn(problem.world);
   EdgeRecord record(isFree, 2);
   const TwoTreeSearch search =
-      student.growBoth(problem.start, problem.goal, settings, record.test(), rex::Rng(given.next()));
+      student.growBoth(problem.start, problem.goal, settings, record.test(), check.split(given.next()));
   {
     const auto biased = check.ask(kBiased, goalBias == 1);
     twoTreesAreSound(check, search, problem, settings, record, isFree);

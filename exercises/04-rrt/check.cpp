@@ -93,7 +93,7 @@ void givesUp(Check& check, Student& student, Rng& given) {
     return qa.size() == 2 && qb.size() == 2 && isFree(qa, qb);
   };
   const TreeSearch search =
-      student.growBackward(kLowerLeft, kUpperRight, settings, counted, Rng(given.next()));
+      student.growBackward(kLowerLeft, kUpperRight, settings, counted, check.split(given.next()));
   check.that("the path of growBackward is empty if there is none", search.path.empty());
   const auto nodes = check.ask("Do only targets count that give a node? maxSamples limits all of them.");
   check.atMost("calls of edgeFree by growBackward, with 400 targets and no path", calls,
@@ -140,7 +140,7 @@ void backwardOutOfTheHole(Check& check, Student& student) {
   for (int i = 1; i <= kArmTries; ++i) {
     ArmSearch in{S, arm, EdgeRecord(isFree, 7), isFree};
     const TreeSearch search =
-        student.growBackward(kZero, arm.goal, kArmSettings, in.record.test(), Rng(given.next()));
+        student.growBackward(kZero, arm.goal, kArmSettings, in.record.test(), check.split(given.next()));
     if (search.path.empty() && i < kArmTries) continue;
     askedWell(check, "growBackward", in.record);
     in.treeIsSound(check, "growBackward", search.tree, arm.goal);
@@ -178,7 +178,7 @@ void bothSidesIntoTheHole(Check& check, Student& student) {
   for (int i = 1; i <= kArmTries; ++i) {
     ArmSearch in{S, arm, EdgeRecord(isFree, 7), isFree};
     const TwoTreeSearch search =
-        student.growBoth(kZero, arm.goal, kArmSettings, in.record.test(), Rng(given.next()));
+        student.growBoth(kZero, arm.goal, kArmSettings, in.record.test(), check.split(given.next()));
     if (search.path.empty() && i < kArmTries) continue;
     askedWell(check, "growBoth", in.record);
     in.treeIsSound(check, "growBoth, from the start", search.fromStart, kZero);

@@ -12,7 +12,7 @@
 
 // Parts 3 to 5: searches in the plane and for the arm, and shorter paths.
 
-/// Students get generators of a separate stream: rewinding them does not reveal what the grader draws.
+/// The labels of the generators that students get.
 inline rex::Rng generatorsOf(rex::grading::Check& check) { return check.rng().split(7); }
 
 inline void describe(rex::grading::Check& check, const std::string& world, const PlaneProblem& problem,
@@ -84,7 +84,7 @@ inline void growsBackward(rex::grading::Check& check, Student& student, const st
   const EdgeTest isFree = freeIn(problem.world);
   EdgeRecord record(isFree, 2);
   const TreeSearch search =
-      student.growBackward(problem.start, problem.goal, settings, record.test(), rex::Rng(given.next()));
+      student.growBackward(problem.start, problem.goal, settings, record.test(), check.split(given.next()));
   backwardIsSound(check, search, problem, settings, record, isFree);
 }
 
@@ -104,7 +104,7 @@ inline OpenSearch searchInTheOpen(rex::grading::Check& check, Student& student, 
   const EdgeTest isFree = [](const Eigen::VectorXd&, const Eigen::VectorXd&) { return true; };
   EdgeRecord record(isFree, 2);
   open.search =
-      student.growBackward(start, open.problem.goal, settings, record.test(), rex::Rng(given.next()));
+      student.growBackward(start, open.problem.goal, settings, record.test(), check.split(given.next()));
   backwardIsSound(check, open.search, open.problem, settings, record, isFree);
   return open;
 }
@@ -208,7 +208,7 @@ struct ArmSearch {
 inline double shortenedLength(rex::grading::Check& check, Student& student, const PlaneProblem& problem,
                               const Path& path, bool isClearlyLonger, rex::Rng& given) {
   EdgeRecord record(freeIn(problem.world), 2);
-  const Path better = student.shortened(path, record.test(), rex::Rng(given.next()));
+  const Path better = student.shortened(path, record.test(), check.split(given.next()));
   const auto shown = check.show([&] { return shortenedSeen(problem, path, better); });
   askedWell(check, "shortened", record);
   // Pieces of free edges are free, up to the last digits.

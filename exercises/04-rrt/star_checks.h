@@ -129,7 +129,7 @@ inline double starIsSound(rex::grading::Check& check, Student& student, const Pl
   const EdgeTest isFree = freeIn(problem.world);
   EdgeRecord record(isFree, 2);
   const StarSearch search = student.growStar.orInfinite()(problem.start, problem.goal, settings, 1.5,
-                                                          record.test(), rex::Rng(given.next()));
+                                                          record.test(), check.split(given.next()));
   askedWell(check, "growStar", record);
   isTree(check, "growStar", search.tree, problem.start, false, settings.maxSamples + 1);
   const auto shown = check.show([&] { return treesSeen(problem, {search.tree}, {}); });

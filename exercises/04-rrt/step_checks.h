@@ -83,7 +83,7 @@ inline Draws drawn(rex::grading::Check& check, Student& student, const SearchSet
                    const Eigen::VectorXd& aim, int n, rex::Rng& given) {
   std::vector<Eigen::VectorXd> others;
   for (int i = 0; i < n; ++i) {
-    const Eigen::VectorXd target = student.drawTarget(settings, aim, rex::Rng(given.next()));
+    const Eigen::VectorXd target = student.drawTarget(settings, aim, check.split(given.next()));
     check.shape("target of drawTarget", target, aim.size(), 1);
     if (target != aim)
       others.emplace_back((target - settings.lower).cwiseQuotient(settings.upper - settings.lower));
@@ -153,11 +153,10 @@ inline void checkSampler(rex::grading::Check& check, Student& student, double go
   }
   if (draws.others.cols() == 0) return;
   drawsAreUniform(check, draws.others, settings);
-  const std::uint64_t seed = given.next();
+  const rex::remote::SplitRng rng = check.split(given.next());
   const auto outside = check.ask("Is there other randomness, as from rand()? All randomness comes from rng.");
-  check.that(
-      "drawTarget gives the same target with the same rng",
-      student.drawTarget(settings, aim, rex::Rng(seed)) == student.drawTarget(settings, aim, rex::Rng(seed)));
+  check.that("drawTarget gives the same target with the same rng",
+             student.drawTarget(settings, aim, rng) == student.drawTarget(settings, aim, rng));
 }
 
 /// What lies between the nearest node and the new one.

@@ -78,7 +78,7 @@ void driftsAsTheModelSays(Check& check, Student& student) {
     ways.push_back(world.tau * u[0]);
     headings.push_back(exact[2]);
     exact = map.getMeanStateAfterStep(exact, u);
-    Moved move{states, student.moved(states, u, world, Rng(rng.next())), states};
+    Moved move{states, student.moved(states, u, world, check.split(rng.next())), states};
     check.shape("states of moved", move.after, 3, count);
     for (auto x : move.still.colwise()) x = map.getMeanStateAfterStep(x, u);
     allMove(check, "moved", move);
@@ -206,7 +206,8 @@ void wholePartsForCertain(Check& check, Student& student) {
     const Eigen::VectorXd weights = i == 0 ? Eigen::VectorXd::Constant(10, .1) : randomWeights(count, rng);
     check.input(i == 0 ? "10 particles of equal weight" : "particles with random weights",
                 {{"weights", weights}, {"count", count}});
-    keepsWholeParts(check, weights, count, childrenOf(check, student, weights, count, rng.next()));
+    keepsWholeParts(check, weights, count,
+                    childrenOf(check, student, weights, count, check.split(rng.next())));
   }
   drawsFromRng(check, student);
   countsWorth(check, student);
@@ -225,7 +226,8 @@ void resamplesAnyWeights(Check& check, Student& student) {
     if (i % 3 == 0) weights.head(particles / 2).setZero();
     if (i % 5 == 0) weights[particles - 1] += 1000;
     weights /= weights.sum();
-    keepsWholeParts(check, weights, count, childrenOf(check, student, weights, count, rng.next()));
+    keepsWholeParts(check, weights, count,
+                    childrenOf(check, student, weights, count, check.split(rng.next())));
   }
   isUnbiased(check, student, randomWeights(9, rng), 4, 1000);
   isUnbiased(check, student, randomWeights(3, rng), 17, 1000);
@@ -287,7 +289,7 @@ void isConsistent(Check& check, Student& student) {
     const Driven driven = drive(world, randomPose(rng), u, steps, rng);
     Cloud cloud = cloudAt(driven.log.start, count);
     for (std::size_t t = 0; t < driven.truth.size(); ++t) {
-      cloud = student.filterStep(cloud, u, driven.log.observations[t], world, Rng(given.next()));
+      cloud = student.filterStep(cloud, u, driven.log.observations[t], world, check.split(given.next()));
       cloudIsSound(check, cloud, count);
     }
     const Eigen::Vector3d mean = student.meanPose(cloud), error = poseError(mean, driven.truth.back());
@@ -340,7 +342,7 @@ void findsNoise(Check& check, Student& student, const CarWorld& world, double fa
                                        {"start", driven.log.start},
                                        {"u", u},
                                        {"dynamicsNoise", world.dynamicsNoise}});
-  const double got = student.likelyNoise(driven.log, told, Rng(rng.next()));
+  const double got = student.likelyNoise(driven.log, told, check.split(rng.next()));
   const std::string question = questionAbout(got, world.observationNoise, told.observationNoise);
   const auto asked = check.ask(question);
   check.near("noise found by likelyNoise", got, world.observationNoise, .15 * world.observationNoise, "m");

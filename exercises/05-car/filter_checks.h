@@ -166,17 +166,16 @@ inline void goesThroughAllLines(rex::grading::Check& check, Student& student, bo
              isLost ? "200 particles, first 50 in one pose, then 50 in another, and so on; an observation "
                       "that makes all likelihoods zero"
                     : "200 particles, first 50 in one pose, then 50 in another, and so on");
-  const std::uint64_t seed = check.rng().next();
-  const Cloud after = student.filterStep(heaps.before, heaps.u, heaps.y, heaps.world, rex::Rng(seed));
+  const rex::remote::SplitRng rng = check.split(check.rng().next());
+  const Cloud after = student.filterStep(heaps.before, heaps.u, heaps.y, heaps.world, rng);
   cloudIsSound(check, after, 200);
   const auto same = check.ask("Are all particles in one state? Wanted is a cloud.", isOneState(after.states));
   copiesFit(check, heaps, after);
   childrenFit(check, heaps, after);
   weightsOfStepFit(check, heaps, after, isLost);
   const auto outside = check.ask("Is there other randomness, as from rand()? All randomness comes from rng.");
-  check.that(
-      "filterStep gives the same particles with the same rng",
-      student.filterStep(heaps.before, heaps.u, heaps.y, heaps.world, rex::Rng(seed)).states == after.states);
+  check.that("filterStep gives the same particles with the same rng",
+             student.filterStep(heaps.before, heaps.u, heaps.y, heaps.world, rng).states == after.states);
 }
 
 /// Two particles; the first has one child or none. With every generator, its noise must not tell.
@@ -191,7 +190,7 @@ inline void drawsAnew(rex::grading::Check& check, Student& student) {
               {{"states", before.states}, {"weights", before.weights}, {"u", u}, {"tau", world.tau}});
   Eigen::MatrixXd pairs(2, calls);
   for (int i = 0; i < calls; ++i) {
-    const Cloud after = student.filterStep(before, u, y, world, rex::Rng(check.rng().next()));
+    const Cloud after = student.filterStep(before, u, y, world, check.split(check.rng().next()));
     cloudIsSound(check, after, 2);
     const double x = after.states(0, 0), way = world.tau * u[0];
     pairs(0, i) = std::min(x, after.states(0, 1)) < 15 ? 1 : -1;
@@ -247,7 +246,7 @@ inline void comesFrom(rex::grading::Check& check, const Cloud& after, const Clou
 inline Cloud stepped(rex::grading::Check& check, Student& student, const Cloud& before,
                      const Eigen::Vector2d& u, const Eigen::VectorXd& y, const CarWorld& world,
                      rex::Rng& given) {
-  const Cloud after = student.filterStep(before, u, y, world, rex::Rng(given.next()));
+  const Cloud after = student.filterStep(before, u, y, world, check.split(given.next()));
   cloudIsSound(check, after, before.weights.size());
   comesFrom(check, after, before, u, world);
   return after;

@@ -190,13 +190,13 @@ inline void spreadsWell(rex::grading::Check& check, Student& student, double noi
   const rex::CarSimulator map = mapOf(world);
   for (Eigen::Index k = 0; k < 3000; ++k)
     move.still.col(k) = map.getMeanStateAfterStep(move.before.col(k), u);
-  const std::uint64_t seed = rng.next(), second = rng.next();
-  move.after = student.moved(move.before, u, world, rex::Rng(seed));
+  const rex::remote::SplitRng given = check.split(7), second = check.split(8);
+  move.after = student.moved(move.before, u, world, given);
   check.shape("states of moved", move.after, 3, 3000);
   allMove(check, "moved", move);
   noiseFits(check, "moved", move.noise(), world);
-  const Eigen::MatrixXd other = student.moved(move.before, u, world, rex::Rng(second)),
-                        again = student.moved(move.before, u, world, rex::Rng(seed));
+  const Eigen::MatrixXd other = student.moved(move.before, u, world, second),
+                        again = student.moved(move.before, u, world, given);
   {
     const auto own = check.ask("Does moved make a generator of its own? All randomness comes from rng.");
     check.that("moved gives other noise with another rng", other != move.after);
@@ -204,7 +204,7 @@ inline void spreadsWell(rex::grading::Check& check, Student& student, double noi
   const auto outside = check.ask("Is there other randomness, as from rand()? All randomness comes from rng.",
                                  again != move.after);
   check.that("moved gives the same noise with the same rng", again == move.after);
-  const auto [once, twice] = student.movesOfTwo(move.before, u, world, rex::Rng(seed));
+  const auto [once, twice] = student.movesOfTwo(move.before, u, world, given);
   const auto copy = check.ask("Does moved draw from a copy of rng? Pass rng by reference.");
   check.that("moved gives other noise when it is called again with the same rng", once != twice);
 }

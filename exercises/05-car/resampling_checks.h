@@ -28,8 +28,9 @@ inline Eigen::VectorXd wholePartsOf(const Eigen::VectorXd& weights, int count) {
 
 /// How often each particle is a parent.
 inline Eigen::VectorXd childrenOf(rex::grading::Check& check, Student& student,
-                                  const Eigen::VectorXd& weights, int count, std::uint64_t seed) {
-  const std::vector<int> drawn = student.resampledParents(weights, count, rex::Rng(seed));
+                                  const Eigen::VectorXd& weights, int count,
+                                  const rex::remote::SplitRng& rng) {
+  const std::vector<int> drawn = student.resampledParents(weights, count, rng);
   const int got = static_cast<int>(drawn.size());
   {
     const int whole = static_cast<int>(wholePartsOf(weights, count).sum());
@@ -120,7 +121,7 @@ inline void isUnbiased(rex::grading::Check& check, Student& student, const Eigen
   given(input);
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(weights.size());
   for (int i = 0; i < calls; ++i)
-    mean += childrenOf(check, student, weights, count, check.rng().next()) / calls;
+    mean += childrenOf(check, student, weights, count, check.split(check.rng().next())) / calls;
   Eigen::Index here = 0;
   const auto shown = check.show([&] { return childrenSeen(mean, count * weights, here); });
   const Eigen::VectorXd whole = wholePartsOf(weights, count);
@@ -146,9 +147,9 @@ inline void isUnbiased(rex::grading::Check& check, Student& student, const Eigen
 inline void drawsFromRng(rex::grading::Check& check, Student& student) {
   const Eigen::VectorXd weights = randomWeights(30, check.rng());
   check.input("two calls", {{"weights", weights}, {"count", 30}});
-  const std::uint64_t seed = check.rng().next();
-  const Eigen::VectorXd one = childrenOf(check, student, weights, 30, seed),
-                        same = childrenOf(check, student, weights, 30, seed);
+  const rex::remote::SplitRng rng = check.split(check.rng().next());
+  const Eigen::VectorXd one = childrenOf(check, student, weights, 30, rng),
+                        same = childrenOf(check, student, weights, 30, rng);
   const auto outside = check.ask("Is there other randomness, as from rand()? All randomness comes from rng.");
   check.that("resampledParents gives the same parents with the same rng", one == same);
 }

@@ -73,7 +73,7 @@ inline void checkStep(rex::grading::Check& check, Student& student, const PoleCa
   const Eigen::Vector4d x = rng.normalVector(4);
   const double u = 5 * rng.normal(), tau = rng.uniform(.005, .1);
   check.input(described(cart), {{"x", x}, {"u", u}, {"tau", tau}, {"noise", noise}});
-  const rex::Rng given = rng.split(7);
+  const rex::remote::SplitRng given = check.split(7);
   const Eigen::Vector4d rates = dynamicsOf(cart).derivative(x, u);
   const bool isRate = (student.rateOf(cart, x, u) - rates).norm() <= 1e-9 * (1 + rates.norm());
   const Eigen::Vector4d got = student.stepped(cart, x, u, tau, noise, given);
@@ -192,7 +192,7 @@ inline rex::grading::Evidence seenUnder(const Eigen::MatrixXd& K, const Eigen::M
 inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, const PoleCart& cart,
                                   const Eigen::MatrixXd& K, const Eigen::Vector4d& start,
                                   const Outing& outing) {
-  const rex::Rng given = check.rng().split(7);
+  const rex::remote::SplitRng given = check.split(7);
   check.rng().next();
   const Eigen::MatrixXd states = student.balanced(cart, K, start, outing, given);
   check.atLeast("number of states of balanced", static_cast<double>(states.cols()), 1);
@@ -248,7 +248,7 @@ inline void stepsFit(rex::grading::Check& check, Student& student, const PoleCar
                      const Eigen::MatrixXd& K) {
   const Eigen::Vector4d start(0, 0, .2, 0);
   const Outing calm{.noise = 0, .steps = 300};
-  const Eigen::MatrixXd states = student.balanced(cart, K, start, calm, rex::Rng(1)),
+  const Eigen::MatrixXd states = student.balanced(cart, K, start, calm, check.split(7)),
                         wanted = statesOf(cart, K, start, calm, rex::Rng(1));
   const auto shown = check.show([&] {
     const bool isOuting = states.rows() == 4 && states.cols() > 1 && wanted.cols() > 1;

@@ -263,7 +263,7 @@ inline void gainsAreQuick(rex::grading::Check& check, Student& student, const Po
     if (K.rows() != 1 || K.cols() != 4 || !K.allFinite()) return 1e9;
     return abscissa(task.plant.A + task.plant.B * K);
   };
-  const Eigen::MatrixXd K = student.quickGains(slowest, start, bound, check.rng().split(7));
+  const Eigen::MatrixXd K = student.quickGains(slowest, start, bound, check.split(7));
   check.shape("K of quickGains", K, 1, 4);
   check.atMost("number of calls of slowest() by quickGains", asked, 3000);
   check.atMost("largest entry of K of quickGains", K.cwiseAbs().maxCoeff(), bound * (1 + 1e-9));

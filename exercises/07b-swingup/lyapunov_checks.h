@@ -61,7 +61,7 @@ inline void candidateIsJudged(rex::grading::Check& check, Student& student, cons
     return candidate.f(x);
   };
   const std::optional<Eigen::VectorXd> x =
-      student.counterexample(f, candidate.P, candidate.high, check.rng().split(7));
+      student.counterexample(f, candidate.P, candidate.high, check.split(7));
   check.rng().next();
   check.atMost("number of calls of f by counterexample", asked, 20000);
   if (candidate.isWrong) asksForPoint(check, candidate, x.has_value());

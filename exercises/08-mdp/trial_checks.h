@@ -172,7 +172,7 @@ inline void trialFits(rex::grading::Check& check, Student& student, int k, int h
   const std::string text = failsAfter <= horizon ? fmt::format("a trial that fails in step {}", failsAfter)
                                                  : "a trial without a failure";
   check.input(text, {{"horizon", horizon}, {"start", task.start}, {"beta", policy.beta}, {"L", policy.L}});
-  rex::Rng given = rng.split(7);
+  const rex::remote::SplitRng given = check.split(7);
   const Rollout trial =
       student.runTrial([&](const Eigen::VectorXd& state, double action) { return task.step(state, action); },
                        task.start, policy, horizon, given);
@@ -182,5 +182,5 @@ inline void trialFits(rex::grading::Check& check, Student& student, int k, int h
   columnsAgree(check, "rewards of runTrial", trial.rewards.transpose(), rewards, [&](Eigen::Index t) {
     check.input(stepped(t), {{"reward of step()", rewards(t)}});
   });
-  actionsFit(check, policy, trial, task, seen, rng.split(7), stepped);
+  actionsFit(check, policy, trial, task, seen, given, stepped);
 }

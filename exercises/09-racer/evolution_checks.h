@@ -242,10 +242,9 @@ inline void strategyFits(rex::grading::Check& check, Student& student, int n, in
                          {"mu", mu},
                          {"lambda", lambda},
                          {"generations", kGenerations}});
-  const rex::Rng one = check.rng().split(7), another = check.rng().split(8);
-  const auto run = [&](int count, const rex::Rng& rng) {
+  const rex::remote::SplitRng one = check.split(7), another = check.split(8);
+  const auto run = [&](int count, const rex::remote::SplitRng& given) {
     Generations seen(start, mu, lambda, count, check.rng());
-    rex::Rng given = rng;
     const Species end = student.evolved([&](const Eigen::MatrixXd& X) { return seen.costs(X); }, start, mu,
                                         lambda, count, given);
     seen.areRight(check, end);

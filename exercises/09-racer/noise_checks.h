@@ -60,11 +60,10 @@ inline void widthFits(rex::grading::Check& check, const Eigen::MatrixXd& kicks, 
 
 /// Tolerances of five or six standard errors: about one false alarm in 10^6.
 inline void noiseFits(rex::grading::Check& check, Student& student, int steps, double tau, double noise) {
-  rex::Rng given = check.rng().split(7);
   check.input("noise of a ride", {{"steps", steps}, {"tau", tau}, {"noise", noise}});
-  const Eigen::MatrixXd got = student.kicks(steps, tau, noise, given);
+  const Eigen::MatrixXd got = student.kicks(steps, tau, noise, check.split(7));
   check.shape("noise of kicks", got, 2, steps);
-  const Eigen::MatrixXd other = student.kicks(steps, tau, noise, check.rng().split(8));
+  const Eigen::MatrixXd other = student.kicks(steps, tau, noise, check.split(8));
   check.shape("noise of kicks", other, 2, steps);
   const double deviation = std::sqrt(tau) * noise, n = 2. * steps;
   const auto shown = check.show([&] { return densityOf(got, deviation); });
@@ -82,7 +81,7 @@ inline void noiseFits(rex::grading::Check& check, Student& student, int steps, d
   });
   const auto own = check.ask("Does kicks use a generator of its own? All randomness comes from rng.");
   check.that("kicks gives other noise with another rng", !other.isApprox(got, 1e-9));
-  const auto [first, second] = student.kicksOfTwo(steps, tau, noise, check.rng().split(10));
+  const auto [first, second] = student.kicksOfTwo(steps, tau, noise, check.split(10));
   check.shape("noise of kicks", first, 2, steps);
   const auto copy = check.ask("Does kicks draw from a copy of rng? Pass rng by reference.");
   check.that("kicks gives other noise when it is called again with the same rng",
@@ -93,7 +92,7 @@ inline void noiseFits(rex::grading::Check& check, Student& student, int steps, d
 inline void noiseIsIndependent(rex::grading::Check& check, Student& student, int steps) {
   const double tau = .01, noise = .1, deviation = std::sqrt(tau) * noise;
   check.input("noise of a ride", {{"steps", steps}, {"tau", tau}, {"noise", noise}});
-  const Eigen::Matrix2Xd got = student.kicks(steps, tau, noise, check.rng().split(9));
+  const Eigen::Matrix2Xd got = student.kicks(steps, tau, noise, check.split(9));
   check.shape("noise of kicks", got, 2, steps);
   const auto ofBoth =
       check.show([&] { return cloudOf(got, deviation, "noise of x' [m/s]", "noise of theta' [rad/s]"); });

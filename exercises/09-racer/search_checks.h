@@ -65,7 +65,7 @@ struct Found {
 
 inline Found searched(rex::grading::Check& check, Student& student, const Situation& in) {
   Track track(in, check.rng());
-  rex::Rng given = check.rng().split(7);
+  const rex::remote::SplitRng given = check.split(7);
   check.input(fmt::format("noise {:.3g}, {}", in.noise, described(in.racer)), {{"budget", kBudget}});
   const Eigen::VectorXd w = student.searchedPolicy(
       [&](const Eigen::MatrixXd& W, int steps) { return track.costs(W, steps); }, kBudget, given);

@@ -504,11 +504,11 @@ void narrowPassages(Check& check, Student& student) {
   const double low = check.rng().uniform(1.3, 2.1);
   const Yard yard = slotYard(low, 0.2);
   const Samples uniform = gathered(check, given, yard, 3000, 8000, kUniform,
-                                   [&](Rng rng) { return student.uniformSample(yard, rng); });
+                                   [&](const auto& rng) { return student.uniformSample(yard, rng); });
   const Samples gaussian = gathered(check, given, yard, 2000, 16000, kGaussian,
-                                    [&](Rng rng) { return student.gaussianSample(yard, 0.2, rng); });
+                                    [&](const auto& rng) { return student.gaussianSample(yard, 0.2, rng); });
   const Samples bridge = gathered(check, given, yard, 100, 30000, kBridge,
-                                  [&](Rng rng) { return student.bridgeSample(yard, 0.3, rng); });
+                                  [&](const auto& rng) { return student.bridgeSample(yard, 0.3, rng); });
   check.atLeast("number of nodes of uniformSample from 8000 attempts", static_cast<double>(uniform.size()),
                 3000);
   check.atLeast("number of nodes of gaussianSample from 16000 attempts", static_cast<double>(gaussian.size()),

@@ -18,8 +18,7 @@
 
 using Samples = std::vector<Eigen::Vector2d>;
 
-// Students' generators come from a stream of their own, one for each check, so that winding one back does
-// not reveal what the grader draws.
+// The labels of the generators that students get.
 inline rex::Rng generatorsOf(rex::grading::Check& check) { return check.rng().split(7); }
 
 // The samplers, and what to ask if a returned node is not free.
@@ -36,7 +35,7 @@ Samples gathered(rex::grading::Check& check, rex::Rng& given, const Yard& yard, 
                  const Sampler& sampler, const Sample& sample) {
   Samples samples;
   for (int i = 0; i < attempts && std::ssize(samples) < count; ++i) {
-    const std::optional<Eigen::Vector2d> q = sample(rex::Rng(given.next()));
+    const std::optional<Eigen::Vector2d> q = sample(check.split(given.next()));
     if (!q) continue;
     const auto shown = check.show([&] {
       rex::grading::Evidence evidence = samplesSeen(std::string("Nodes of ") + sampler.name, yard, samples);
@@ -69,7 +68,7 @@ void attemptsFit(rex::grading::Check& check, rex::Rng& given, const Sampler& sam
   const std::string name = sampler.name;
   double found = 0;
   for (int i = 0; i < 200; ++i) {
-    const rex::Rng rng(given.next());
+    const rex::remote::SplitRng rng = check.split(given.next());
     const std::optional<Eigen::Vector2d> once = sample(rng), again = sample(rng);
     const auto own = check.ask("Does it use a generator of its own? All randomness comes from rng.");
     check.that(name + " returns the same again with the same rng", once == again);
@@ -83,7 +82,7 @@ void attemptsFit(rex::grading::Check& check, rex::Rng& given, const Sampler& sam
 inline void uniformFits(rex::grading::Check& check, Student& student, rex::Rng& given) {
   const Yard wall{{4, 4}, {{{0, 0}, {2, 4}}}};
   check.input("a yard of 4 x 4 m whose left half is a block");
-  const auto sample = [&](rex::Rng rng) { return student.uniformSample(wall, rng); };
+  const auto sample = [&](const auto& rng) { return student.uniformSample(wall, rng); };
   attemptsFit(check, given, kUniform, 150, sample);
   const Samples nodes = gathered(check, given, wall, 2000, 6000, kUniform, sample);
   const auto shown = check.show(
@@ -108,7 +107,7 @@ inline void gaussianFits(rex::grading::Check& check, Student& student, rex::Rng&
   const double sigma = check.rng().uniform(0.25, 0.3);
   const Yard wall{{12, 4}, {{{0, 0}, {12, 2}}}};
   check.input("a yard of 12 x 4 m whose lower half is a block", {{"sigma", sigma}});
-  const auto sample = [&](rex::Rng rng) { return student.gaussianSample(wall, sigma, rng); };
+  const auto sample = [&](const auto& rng) { return student.gaussianSample(wall, sigma, rng); };
   attemptsFit(check, given, kGaussian, 120, sample);
   const Samples nodes = gathered(check, given, wall, 12000, 12000, kGaussian, sample);
   std::vector<double> distances;
@@ -157,7 +156,7 @@ inline void gaussianLeavesStrips(rex::grading::Check& check, Student& student, r
     check.input(fmt::format("a yard blocked except for a strip that {} by 45 degrees; sigma = 0.3 m",
                             rises ? "rises" : "falls"));
     const Samples nodes = gathered(check, given, yard, 2000, 2000, kGaussian,
-                                   [&](rex::Rng rng) { return student.gaussianSample(yard, 0.3, rng); });
+                                   [&](const auto& rng) { return student.gaussianSample(yard, 0.3, rng); });
     const auto shown =
         check.show([&] { return samplesSeen("Gaussian nodes; wanted: all along the strip", yard, nodes); });
     const auto same =
@@ -192,7 +191,7 @@ inline void bridgesLeadOutside(rex::grading::Check& check, Student& student, rex
   const double sigma = 0.3;
   const Yard yard{{6, 2}, {{{0, 0}, {6, 2 - sigma / 2}}}};
   check.input("a yard of 6 x 2 m, blocked except for a strip of 0.15 m at its upper border; sigma = 0.3 m");
-  const auto sample = [&](rex::Rng rng) { return student.bridgeSample(yard, sigma, rng); };
+  const auto sample = [&](const auto& rng) { return student.bridgeSample(yard, sigma, rng); };
   attemptsFit(check, given, kBridge, 120, sample);
   const Samples nodes = gathered(check, given, yard, 6000, 6000, kBridge, sample);
   const auto outside = check.ask("May q2 leave the yard? Nothing is free there.");
@@ -206,7 +205,7 @@ inline void bridgesFit(rex::grading::Check& check, Student& student, rex::Rng& g
   check.input("a yard of 6 x 2 m, blocked except for three slots: along x, along y and slanted",
               {{"sigma", sigma}});
   const Samples nodes = gathered(check, given, yard, 200, 12000, kBridge,
-                                 [&](rex::Rng rng) { return student.bridgeSample(yard, sigma, rng); });
+                                 [&](const auto& rng) { return student.bridgeSample(yard, sigma, rng); });
   const auto shown =
       check.show([&] { return samplesSeen("Bridge nodes; wanted: in all slots", yard, nodes); });
   check.atLeast("number of nodes of bridgeSample from 12000 attempts", static_cast<double>(nodes.size()),
@@ -230,7 +229,7 @@ inline void samplers(rex::grading::Check& check, Student& student) {
   const Yard slot = slotYard(1.9, 0.2);
   check.input("slotYard() of maps.h, 0.2 m wide; sigma = 0.3 m");
   const Samples bridge = gathered(check, given, slot, 60, 6000, kBridge,
-                                  [&](rex::Rng rng) { return student.bridgeSample(slot, 0.3, rng); });
+                                  [&](const auto& rng) { return student.bridgeSample(slot, 0.3, rng); });
   const auto shown = check.show([&] {
     return samplesSeen("Bridge nodes; wanted: two of five in the slot, none far from blocks", slot, bridge);
   });

@@ -102,7 +102,7 @@ inline void drivesDiffer(rex::grading::Check& check, Student& student) {
   const CarModel car;
   const Eigen::Vector3d from = randomPose(check.rng(), 5), target = moved(from, {6, 3, 1});
   check.input("two calls with one rng, and nothing in the way", {{"from", from}, {"target", target}});
-  const auto [first, second] = student.drivesOfTwo(car, from, target, 2, {}, check.rng().split(98));
+  const auto [first, second] = student.drivesOfTwo(car, from, target, 2, {}, check.split(98));
   check.that("driveTowards returns a drive, since nothing is in the way", first && second);
   const auto copy = check.ask("Does driveTowards draw from a copy of rng? Pass rng by reference.");
   check.that("driveTowards draws other controls when it is called again with the same rng",
@@ -123,12 +123,9 @@ inline void drivesFit(rex::grading::Check& check, Student& student) {
         {moved(from, {side > 0 ? car.front + 1.2 : -car.back - 1.2, rng.uniform(-2, 2), kPi / 2}), 6, 0.15},
         {moved(from, {rng.uniform(-4, 4), rng.uniform(2, 3), 0}), 0.15, 0.15}};
     if (touches(grown(car, 0.1), from, blocks)) continue;
-    rex::Rng given = rng.split(static_cast<std::uint64_t>(i));
-    auto drive = student.driveTowards(car, from, target, seconds, blocks, given);
-    if (!drive) {  // 20 controls are all blocked once in a million times
-      rex::Rng again = rng.split(static_cast<std::uint64_t>(2000 + i));
-      drive = student.driveTowards(car, from, target, seconds, blocks, again);
-    }
+    auto drive = student.driveTowards(car, from, target, seconds, blocks, check.split(i));
+    if (!drive)  // 20 controls are all blocked once in a million times
+      drive = student.driveTowards(car, from, target, seconds, blocks, check.split(2000 + i));
     rex::Rng own = rng.split(static_cast<std::uint64_t>(1000 + i));
     check.input("a wall and a post beside the car",
                 {{"L, front, back, width", Eigen::Vector4d(car.wheelbase, car.front, car.back, car.width)},
@@ -156,9 +153,9 @@ inline void drivesFit(rex::grading::Check& check, Student& student) {
   shareFits(check, sums[0], counts[0], "targets up to 17 m away");
   shareFits(check, sums[1], counts[1], "targets up to 2 m away");
   check.input("a block of 9 m x 9 m that the car stands in");
-  rex::Rng given = rng.split(99);
-  check.that("driveTowards returns nothing, since all ways are blocked",
-             !student.driveTowards({}, {0, 0, 0}, {9, 0, 0}, 1.5, {{{2, 0, 0}, 9, 9}}, given).has_value());
+  check.that(
+      "driveTowards returns nothing, since all ways are blocked",
+      !student.driveTowards({}, {0, 0, 0}, {9, 0, 0}, 1.5, {{{2, 0, 0}, 9, 9}}, check.split(99)).has_value());
   drivesDiffer(check, student);
 }
 
@@ -203,8 +200,7 @@ inline rex::grading::Evidence offsetsSeen(const std::vector<CarNode>& tree, cons
 inline void treeReaches(rex::grading::Check& check, Student& student, const CarModel& car,
                         const World& world) {
   const std::string room = check.input();
-  rex::Rng given = check.rng().split(7);
-  const std::vector<CarNode> tree = student.growTree(car, world, given);
+  const std::vector<CarNode> tree = student.growTree(car, world, check.split(7));
   {
     const auto start = check.ask("Is the tree only its start?", tree.size() == 1);
     check.atLeast("number of nodes of growTree", static_cast<double>(tree.size()), 2);

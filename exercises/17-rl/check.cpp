@@ -45,7 +45,7 @@ Evidence tableSeen(const std::string& title, const Eigen::MatrixXd& got, const E
 void choosesAsOften(Check& check, Student& student, const Eigen::VectorXd& worth, double epsilon) {
   constexpr int kCount = 3000;
   check.input("many choices", {{"worth", worth}, {"epsilon", epsilon}});
-  const std::vector<int> choices = student.choicesOf(worth, epsilon, kCount, check.rng());
+  const std::vector<int> choices = student.choicesOf(worth, epsilon, kCount, check.split(7));
   check.near("number of choices", static_cast<double>(choices.size()), kCount, 0);
   const int m = int(worth.rows());
   Eigen::VectorXd got = Eigen::VectorXd::Zero(m);

@@ -17,7 +17,7 @@ inline void movesOnce(Check& check, Student& student) {
       motion(rounded(rng.uniform(.4, 1)), rounded(rng.uniform(.2, .5)), rounded(rng.uniform(.3, 1))),
       deviations(.3, .1, .2);
   check.input("a pose and a motion", {{"pose", pose}, {"motion", motion}, {"deviations", deviations}});
-  const Eigen::MatrixXd got = student.moved(pose, motion, deviations, kCount, rng);
+  const Eigen::MatrixXd got = student.moved(pose, motion, deviations, kCount, check.split(7));
   check.shape("moved", got, 3, kCount);
   const auto seenFrom = [&](double heading) {
     Eigen::MatrixXd ways(3, kCount);
@@ -142,7 +142,7 @@ inline void resamples(Check& check, Student& student, int count, double spread) 
     std::vector<Particle> particles = idParticles(count, 0, 1, check.rng());
     for (std::size_t k = 0; k < particles.size(); ++k)
       particles[k].logWeight = logs[static_cast<Eigen::Index>(k)];
-    const std::vector<Particle> got = student.resampled(particles, check.rng());
+    const std::vector<Particle> got = student.resampled(particles, check.split(7));
     check.near("number of particles after resampling", static_cast<double>(got.size()), count, 0);
     Eigen::VectorXd copies = Eigen::VectorXd::Zero(count);
     for (const Particle& copy : got) {
@@ -268,7 +268,8 @@ inline void stepsParticles(Check& check, Student& student) {
     check.input(settings.matches ? "three particles in a building; poses are matched"
                                  : "three particles in a building; poses are not matched",
                 {{"motion", motion}, {"last pose", before}});
-    const std::vector<Particle> got = student.slamStep(particles, motion, sight.scan, settings, check.rng());
+    const std::vector<Particle> got =
+        student.slamStep(particles, motion, sight.scan, settings, check.split(7));
     check.near("number of particles after slamStep", static_cast<double>(got.size()), 3, 0);
     for (std::size_t k = 0; k < 3; ++k) {
       const Eigen::Vector3d last = particles[k].path.back();
@@ -289,7 +290,7 @@ inline void stepsParticles(Check& check, Student& student) {
       double share = 0;
       for (int n = 0; n < 24; ++n) {
         const std::vector<Particle> more =
-            student.slamStep(particles, motion, sight.scan, settings, check.rng().split(100 + n));
+            student.slamStep(particles, motion, sight.scan, settings, check.split(100 + n));
         check.near("number of particles after slamStep", static_cast<double>(more.size()), 3, 0);
         for (std::size_t k = 0; k < 3; ++k) {
           check.that("each particle has a path after slamStep", !more[k].path.empty());

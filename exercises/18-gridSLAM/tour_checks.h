@@ -49,7 +49,7 @@ inline void maps(Check& check, Student& student) {
   check.input("a tour of " + std::to_string(tour.log.motions.size()) +
               " steps with 45 rays, and 12 particles");
   const Settings settings;
-  const Mapped got = student.mapped(tour.log, emptyGrid(), settings, kParticles, check.rng());
+  const Mapped got = student.mapped(tour.log, emptyGrid(), settings, kParticles, check.split(7));
   const Grid truth = gridOf(tour.building);
   check.near("number of effective sizes of mapped", static_cast<double>(got.effectiveSizes.size()),
              static_cast<double>(tour.log.motions.size()), 0);
@@ -105,7 +105,7 @@ inline void keepsRule(Check& check, Student& student) {
   const auto sizesFor = [&](double threshold) {
     settings.threshold = threshold;
     check.input("a tour of 40 steps and 10 particles, without matches", {{"threshold", threshold}});
-    const Mapped got = student.mapped(tour.log, emptyGrid(), settings, 10, check.rng());
+    const Mapped got = student.mapped(tour.log, emptyGrid(), settings, 10, check.split(7));
     check.near("number of effective sizes of mapped", static_cast<double>(got.effectiveSizes.size()), 40, 0);
     isDrawn(check, got, tour.log, settings.evidence);
     const auto least = check.ask("Is it a particle of the largest weight?");

@@ -18,6 +18,7 @@
 #include "grading/evidence.h"
 #include "grading/results.h"
 #include "grading/signal.h"
+#include "remote/split_rng.h"
 
 namespace rex::remote {
 class AnswerRefused;
@@ -70,6 +71,9 @@ class Check {
 
   /// Random numbers that depend on the seed, the check's id and the case, but not on earlier draws.
   Rng& rng() { return rng_; }
+  /// A generator for a student's function, which may not get rng(). It depends on the state of rng(), which
+  /// stays as it is, and on the label.
+  remote::SplitRng split(std::uint64_t label) const { return {rng_, label}; }
   std::uint64_t seed() const { return seed_; }
 
   /// Sets the input that the student's functions get from here on. A visible check shows it when it fails.

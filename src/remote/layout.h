@@ -14,9 +14,9 @@
 
 #include <Eigen/Core>
 
-#include "base/rng.h"
 #include "remote/aggregate.h"
 #include "remote/remote.h"
+#include "remote/split_rng.h"
 
 namespace rex::remote {
 
@@ -38,7 +38,7 @@ struct Layout {
       return (std::is_signed_v<T> ? "i" : "u") + std::to_string(sizeof(T));
     } else if constexpr (std::is_same_v<T, std::string>) {
       return "s";
-    } else if constexpr (std::is_same_v<T, Rng>) {
+    } else if constexpr (std::is_same_v<T, SplitRng>) {
       return "r";
     } else {
       static_assert(PlainStruct<T>);

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "remote/split_rng.h"
+
 namespace rex::remote {
 
 /// How an argument of type T travels: the trusted side sends a `Sent`, the worker makes its T from it.
@@ -20,6 +22,13 @@ template <class Matrix, int options, class Stride>
 struct Remote<Eigen::Ref<Matrix, options, Stride>> {
   using Sent = std::remove_const_t<Matrix>;
   static Sent fromSent(Sent sent) { return sent; }
+};
+
+/// Of generators only split ones travel.
+template <>
+struct Remote<Rng> {
+  using Sent = SplitRng;
+  static Rng fromSent(const SplitRng& sent) { return sent; }
 };
 
 }  // namespace rex::remote

@@ -15,8 +15,8 @@
 
 #include <Eigen/Core>
 
-#include "base/rng.h"
 #include "remote/aggregate.h"
+#include "remote/split_rng.h"
 
 namespace rex::remote {
 
@@ -251,13 +251,13 @@ struct Wire<Eigen::Matrix<S, rows, cols, options, maxRows, maxCols>> {
 
 /// Sent with its position in the sequence, so that both sides draw the same numbers.
 template <>
-struct Wire<Rng> {
+struct Wire<SplitRng> {
   using State = std::array<std::uint64_t, 4>;
-  static void put(Writer& writer, const Rng& rng) { Wire<State>::put(writer, rng.state()); }
-  static Rng get(Reader& reader) {
+  static void put(Writer& writer, const SplitRng& rng) { Wire<State>::put(writer, rng.state()); }
+  static SplitRng get(Reader& reader) {
     const State state = Wire<State>::get(reader);
     if (state == State{}) throw ProtocolError("a random generator has an empty state");
-    return Rng::fromState(state);
+    return {SplitRng::Received(), Rng::fromState(state)};
   }
 };
 

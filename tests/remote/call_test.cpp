@@ -168,8 +168,15 @@ TEST_F(Calls, ReturnWhatTheFunctionReturns) {
 TEST_F(Calls, MakeAFreshObjectFromADescription) {
   EXPECT_EQ(worker.function<decltype(countTwice)>("countTwice")(5), 11);
   EXPECT_EQ(worker.function<decltype(countTwice)>("countTwice")(5), 11);
-  EXPECT_EQ(worker.function<decltype(draw)>("draw")(Rng(4)), Rng(4).uniform());
+  SplitRng rng(Rng(4), 1);
+  EXPECT_EQ(worker.function<decltype(draw)>("draw")(rng), rng.uniform());
 }
+
+// Run backwards, a generator of the grader gives its seed.
+template <class Generator>
+constexpr bool kCrosses = std::is_invocable_v<Call<decltype(draw)>, Generator>;
+static_assert(kCrosses<SplitRng&> && kCrosses<SplitRng>);
+static_assert(!kCrosses<Rng&> && !kCrosses<Rng> && !kCrosses<const Rng&>);
 
 TEST_F(Calls, AnswerCallbacks) {
   const auto sumUpThere = worker.function<decltype(sumUp)>("sumUp");

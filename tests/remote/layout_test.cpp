@@ -24,7 +24,7 @@ struct Outer {
 TEST(Layout, TellsHowBytesLie) {
   EXPECT_EQ(Layout<double>::text(), "d");
   EXPECT_EQ(Layout<std::string>::text(), "s");
-  EXPECT_EQ(Layout<Rng>::text(), "r");
+  EXPECT_EQ(Layout<SplitRng>::text(), "r");
   EXPECT_EQ(Layout<std::uint64_t>::text(), "u8");
   EXPECT_EQ(Layout<Eigen::MatrixXd>::text(), "M-1,-1,d");
   EXPECT_EQ(Layout<Eigen::Matrix2Xi>::text(), "M2,-1,i4");

@@ -107,9 +107,9 @@ TEST(Wire, KeepsTheBitsOfSpecialNumbers) {
 }
 
 TEST(Wire, LetsBothSidesDrawTheSameNumbers) {
-  Rng rng(3);
+  SplitRng rng(Rng(3), 1);
   rng.next();
-  Rng copy = fromBytes<Rng>(bytesOf(rng));
+  SplitRng copy = fromBytes<SplitRng>(bytesOf(rng));
   EXPECT_EQ(copy.next(), rng.next());
 }
 
@@ -165,7 +165,7 @@ TEST(Wire, SaysWhatIsWrong) {
   EXPECT_EQ(rejection<Eigen::MatrixXd>(numbers({1 << 30, 1 << 30})), "a matrix is larger than its message");
   EXPECT_EQ(rejection<Eigen::MatrixXd>(numbers({-1, 1})), "a matrix has a size that its type cannot have");
   EXPECT_EQ(rejection<Eigen::Vector3d>(numbers({4, 1})), "a matrix has a size that its type cannot have");
-  EXPECT_EQ(rejection<Rng>(numbers({0, 0, 0, 0, 0, 0, 0, 0})), "a random generator has an empty state");
+  EXPECT_EQ(rejection<SplitRng>(numbers({0, 0, 0, 0, 0, 0, 0, 0})), "a random generator has an empty state");
   Writer two;
   Wire<std::uint8_t>::put(two, 2);
   EXPECT_EQ(rejection<bool>(two), "a truth value is neither 0 nor 1");
