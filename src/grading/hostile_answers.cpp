@@ -21,6 +21,7 @@
 #include "grading/answer_value.h"
 #include "grading/grown_answers.h"
 #include "grading/grown_answers_internal.h"
+#include "grading/rewound_generators.h"
 
 namespace rex::grading {
 namespace {
@@ -189,18 +190,23 @@ struct Honest {
 /// The honest answers of each function.
 using Pool = std::map<std::uint32_t, std::vector<Honest>>;
 
-Pool recordHonestAnswers(std::span<const RunnableCheck> checks, const Reference& reference) {
+// Throws Error if a worker receives a generator that gives the seed of the case.
+Pool recordHonestAnswers(std::span<const RunnableCheck> checks, const Reference& reference,
+                         const CallLayouts& layouts) {
   constexpr std::size_t kMostOfOne = 64, kLongest = 4u << 20;
   Pool pool;
   for (const RunnableCheck& check : checks) {
     Check judge(check.info, reference.job.seed);
-    const auto record = [&](std::uint32_t method, Caller::Bytes arguments, Caller::Bytes answer) {
-      std::vector<Honest>& known = pool[method];
-      if (known.size() < kMostOfOne && answer.size() + arguments.size() < kLongest)
-        known.push_back({copyOf(arguments), copyOf(answer)});
-      return answer;
+    const auto recordOf = [&](const Caller& caller) {
+      return [&](std::uint32_t method, Caller::Bytes arguments, Caller::Bytes answer) {
+        requireNoSeedBehind(check.info.id, caller.lastCalled(), arguments, layouts.at(method));
+        std::vector<Honest>& known = pool[method];
+        if (known.size() < kMostOfOne && answer.size() + arguments.size() < kLongest)
+          known.push_back({copyOf(arguments), copyOf(answer)});
+        return answer;
+      };
     };
-    static_cast<void>(judgeTampered(check, reference, judge, [&](const Caller&) { return record; }));
+    static_cast<void>(judgeTampered(check, reference, judge, recordOf));
   }
   return pool;
 }
@@ -382,7 +388,7 @@ std::string describe(const IsolatedResult& result) {
 std::vector<HostileOutcome> giveHostileAnswers(std::span<const RunnableCheck> checks, const GradingJob& job,
                                                std::uint64_t signature, const CallLayouts& layouts,
                                                std::int64_t answers) {
-  const Pool pool = recordHonestAnswers(checks, {job, signature});
+  const Pool pool = recordHonestAnswers(checks, {job, signature}, layouts);
   const auto each = static_cast<std::int64_t>(checks.size()) * static_cast<std::int64_t>(Hostility::kCount);
   const std::int64_t ofEach = (answers + each - 1) / std::max<std::int64_t>(1, each);
   std::vector<HostileOutcome> outcomes;
@@ -411,7 +417,7 @@ std::vector<FalseAnswerOutcome> runAdversarially(std::span<const RunnableCheck> 
                                                  std::uint64_t signature, const CallLayouts& layouts) {
   GradingJob others = job;
   others.seed += 1000;  // constants that were right for another seed
-  const Pool pool = recordHonestAnswers(checks, {others, signature});
+  const Pool pool = recordHonestAnswers(checks, {others, signature}, layouts);
   std::vector<FalseAnswerOutcome> outcomes;
   for (const RunnableCheck& check : checks)
     for (int k = 0; k < static_cast<int>(FalseAnswer::kCount); ++k) {

@@ -1,5 +1,7 @@
 #include "grading/hostile_answers.h"
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <csignal>
 #include <limits>
@@ -69,6 +71,29 @@ TEST(HostileAnswers, FindCarelessChecks) {
       EXPECT_THAT(one.exception, HasSubstr("vector::_M_range_check"));
     }
   }
+}
+
+// The layouts say that ikStep takes a generator; a target has as many bytes, and these are the state of one.
+TEST(HostileAnswers, FindGeneratorsThatGiveTheSeed) {
+  constexpr std::uint64_t kSeed = 5365457349091663883u;  // the state begins as a vector of size 3 x 1 does
+  const std::array<std::uint64_t, 4> state = Rng(kSeed).state();
+  ASSERT_EQ(state[0], (std::uint64_t{1} << 32) + 3);
+  const auto target = std::bit_cast<std::array<double, 3>>(std::array{state[1], state[2], state[3]});
+  CallLayouts layouts = Student::layouts();
+  for (std::vector<std::string>& ofFunction : layouts)
+    for (std::string& layout : ofFunction)
+      if (layout == "M3,1,d") layout = "r";
+  const auto stepTo = [](const Eigen::Vector3d& to) {
+    return check("step", [to](Check& judge, Student& s) {
+      judge.shape("step", s.ikStep(Eigen::VectorXd::Zero(3), to), 3, 1);
+    });
+  };
+  const auto attack = [&](const Eigen::Vector3d& to) {
+    return giveHostileAnswers(std::vector{stepTo(to)}, kJob, Student::signature(), layouts, 14).size();
+  };
+  EXPECT_EQ(attack(kTarget), 14u);
+  EXPECT_REX_ERROR(attack(Eigen::Vector3d::Map(target.data())),
+                   "step: the generator handed to ikStep gives the seed of the case when run backwards");
 }
 
 TEST(Lies, FindChecksThatAreEasilyPleased) {
