@@ -8,8 +8,7 @@
 #include "estimation/scan_walk.h"
 #include "exercise.h"
 
-// Simulated buildings of 12 x 12 m: a corridor around a block, with furniture. The robot goes around the
-// block once, and along its first side once more.
+// Simulated buildings of 12 x 12 m: a corridor around a block, with furniture.
 
 inline rex::Building randomBuilding(rex::Rng& rng) {
   rex::Building building;
@@ -68,11 +67,8 @@ struct Tour {
   Log log{};
 };
 
-/// The first `steps` steps; all of them if it is zero.
-inline Tour tourOf(const rex::Building& building, int steps, rex::Rng& rng) {
-  const double a = 2.4, b = 9.6;
-  Eigen::Matrix3Xd poses = rex::posesAlong({{a, a}, {b, a}, {b, b}, {a, b}, {a, a}, {b, a}}, .4, .4);
-  if (steps > 0) poses = poses.leftCols(steps + 1).eval();
+/// With the true poses in the columns of `poses`.
+inline Tour tourOf(const rex::Building& building, const Eigen::Matrix3Xd& poses, rex::Rng& rng) {
   const rex::RangeScanner scanner = scannerOf(45, 6.5);
   const rex::ScanWalk walk =
       rex::measured(building, poses, scanner, {.odometry = Settings{}.odometry, .range = .02}, rng);

@@ -124,7 +124,10 @@ void filmMapping(const Office& office, const Settings& settings) {
 Office officeOfShow() {
   Rng rng(3);
   const Building building = randomBuilding(rng);
-  const Tour tour = tourOf(building, 0, rng);
+  // Around the block once, and along its first side once more.
+  const double a = 2.4, b = 9.6;
+  const Tour tour =
+      tourOf(building, posesAlong({{a, a}, {b, a}, {b, b}, {a, b}, {a, a}, {b, a}}, .4, .4), rng);
   return {emptyGrid(), gridOf(building), tour.truth, tour.log};
 }
 
