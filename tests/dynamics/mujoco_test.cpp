@@ -57,7 +57,7 @@ Eigen::Vector3d threeNumbers(const std::string& text) {
   return numbers;
 }
 
-// The same inertia by its principal axes, repaired as our reader does: none without mass, none below 0.
+// The same inertia by its principal axes, repaired as our reader does: none below 0.
 std::string principalInertial(const std::string& xml) {
   const auto entry = [&](const char* name) { return number(xml, name); };
   const Eigen::Matrix3d I{{entry("ixx"), entry("ixy"), entry("ixz")},
@@ -67,8 +67,7 @@ std::string principalInertial(const std::string& xml) {
   Eigen::Matrix3d axes = principal.eigenvectors();
   axes.col(0) *= axes.determinant();
   const Eigen::Vector3d rpy = threeNumbers(attribute(xml, "rpy", "0 0 0"));
-  const bool hasMass = number(xml, "value") > 0;
-  const Eigen::Vector3d moments = hasMass * principal.eigenvalues().cwiseMax(0);
+  const Eigen::Vector3d moments = principal.eigenvalues().cwiseMax(0);
   const Eigen::Matrix3d R = rotationFromRollPitchYaw(rpy) * axes;
   const Eigen::Vector3d turn = rollPitchYawFromRotation(R);
   return fmt::format(R"(<inertial><origin xyz="{}" rpy="{} {} {}"/><mass value="{}"/>)"

@@ -129,7 +129,7 @@ TEST(Covariance, IsJudgedEntryByEntry) {
   Eigen::Matrix3d small = Eigen::Vector3d(1, 1e-20, 1e-20).asDiagonal();
   small(1, 2) = small(2, 1) = 1e-20;
   const Eigen::MatrixXd S = covarianceRoot(small);
-  EXPECT_NEAR((S * S.transpose())(2, 2), 1e-20, 1e-16);
+  EXPECT_NEAR((S * S.transpose())(2, 2), 1e-20, 1e-26);
 }
 
 TEST(Gaussian, SaysWhatIsWrong) {

@@ -78,11 +78,10 @@ TEST(RobotProblem, SaysWhichShapesAreInTheWay) {
   problem.goal = inside;
   Rng rng(1);
   EXPECT_REX_ERROR(static_cast<void>(connectRrts(problem, {}, rng)), "in overlap, wanted a valid one");
-  EXPECT_EQ(
-      nearestContact(scene("body a { type=1 size=[0 0 0 1] contact }"),
-                     ContactModel(scene("body a { type=1 size=[0 0 0 1] contact }")), Eigen::VectorXd())
-          .text,
-      "all shapes apart");
+  EXPECT_EQ(nearestContact(scene("body a { type=1 size=[0 0 0 1] contact }"),
+                           ContactModel(scene("body a { type=1 size=[0 0 0 1] contact }")), Eigen::VectorXd())
+                .text,
+            "all shapes apart");
 }
 
 }  // namespace rex::robot_problem_test
