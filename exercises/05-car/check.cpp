@@ -202,7 +202,8 @@ void countsWorth(Check& check, Student& student) {
 void wholePartsForCertain(Check& check, Student& student) {
   Rng& rng = check.rng();
   for (int i = 0; i < 30; ++i) {
-    const int count = i == 0 ? 10 : 2 + rng.index(38);
+    // A question about all particles needs eight of them.
+    const int count = i == 0 ? 10 : (i < 10 ? 8 : 2) + rng.index(32);
     const Eigen::VectorXd weights = i == 0 ? Eigen::VectorXd::Constant(10, .1) : randomWeights(count, rng);
     check.input(i == 0 ? "10 particles of equal weight" : "particles with random weights",
                 {{"weights", weights}, {"count", count}});

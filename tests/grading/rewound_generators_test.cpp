@@ -56,7 +56,7 @@ TEST(NoSeedBehind, IsRequiredOfEveryGenerator) {
                    "tour: the generator handed to mapped gives the seed of the case when run backwards");
 }
 
-TEST(Check, SplitsGeneratorsByStateAndLabel) {
+TEST(SplitGenerator, DependsOnStateAndLabel) {
   Check one({.id = "tour"}, 1), again({.id = "tour"}, 1), other({.id = "tour"}, 2);
   const auto state = one.split(7).state();
   EXPECT_EQ(state, again.split(7).state());

@@ -168,8 +168,7 @@ TEST_F(Calls, ReturnWhatTheFunctionReturns) {
 TEST_F(Calls, MakeAFreshObjectFromADescription) {
   EXPECT_EQ(worker.function<decltype(countTwice)>("countTwice")(5), 11);
   EXPECT_EQ(worker.function<decltype(countTwice)>("countTwice")(5), 11);
-  SplitRng rng(Rng(4), 1);
-  EXPECT_EQ(worker.function<decltype(draw)>("draw")(rng), rng.uniform());
+  EXPECT_EQ(worker.function<decltype(draw)>("draw")(SplitRng(Rng(4), 1)), SplitRng(Rng(4), 1).uniform());
 }
 
 // Run backwards, a generator of the grader gives its seed.
