@@ -146,9 +146,9 @@ Eigen::Vector3d matched(const Grid& distances, const Scan& scan, double deviatio
     return true;
   };
   // A coarse search, so that no small hill near the guess is taken for the summit; then uphill.
-  for (int n = 0; n < 27; ++n)
-    take(guess + 2. / 3 * Eigen::Vector3d(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1).cwiseProduct(half));
-  for (double part = 1. / 3; part > .01;) {
+  for (int n = 0; n < 125; ++n)
+    take(guess + 2. / 5 * Eigen::Vector3d(n % 5 - 2, n / 5 % 5 - 2, n / 25 - 2).cwiseProduct(half));
+  for (double part = 1. / 5; part > .01;) {
     bool isBetter = false;
     for (int n = 0; n < 6; ++n) {
       Eigen::Vector3d pose = best;
