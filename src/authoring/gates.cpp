@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "authoring/killed_mutants.h"
 #include "authoring/pasted.h"
 #include "authoring/release.h"
 #include "authoring/seen_messages.h"
@@ -478,6 +479,17 @@ GateResult shownCodeGetsNothing(const GateContext& context) {
   return result;
 }
 
+// No small change of the solution, made by machine, gets all points.
+GateResult mutantsAreKilled(const GateContext& context) {
+  const MutantCounts all = countMutants(context);
+  GateResult result = judge(all.complaints);
+  result.note = fmt::format("made {} mutants of {}: {} killed, {} survived, {} do not compile; {:.0f} s",
+                            all.made, all.possible, all.killed, all.survived, all.rejected, all.seconds);
+  for (const auto& [reason, number] : all.equal) result.note += fmt::format("; {} equal: {}", number, reason);
+  if (!all.idleChecks.empty()) result.note += fmt::format("; no mutant needs {}", join(all.idleChecks, ", "));
+  return result;
+}
+
 GateResult variantsAreCaught(const GateContext& context) {
   const CaughtTogether all = whyNotCaughtTogether(context);
   GateResult result = judge(all.complaints);
@@ -490,7 +502,7 @@ GateResult variantsAreCaught(const GateContext& context) {
 std::vector<std::string> gateNames(const submission::ExerciseInfo& exercise) {
   std::vector<std::string> names = {"main-current", "points", "names",    "release",    "evidence",
                                     "main-floor",   "mains",  "solution", "sanitizers", "hostile",
-                                    "grown",        "liars",  "pasted"};
+                                    "grown",        "liars",  "pasted",   "mutants"};
   if (std::filesystem::exists(exercise.folder / "wrong.cpp")) names.emplace_back("wrong");
   return names;
 }
@@ -517,6 +529,7 @@ GateResult runGate(const GateContext& context, const std::string& gate) {
       {"grown", growthGainsNothing},
       {"liars", liarsGetNothing},
       {"pasted", shownCodeGetsNothing},
+      {"mutants", mutantsAreKilled},
       {"wrong", variantsAreCaught}};
   try {
     return gate.starts_with(kOneVariant) ? judge(whyNotCaught(context, gate.substr(kOneVariant.size())))

@@ -47,7 +47,7 @@ struct GateResult {
 };
 
 /// The gates of an exercise in order: main-current, points, names, release, evidence, main-floor, mains,
-/// solution, sanitizers, hostile, grown, liars, pasted, and, if there is wrong.cpp, wrong.
+/// solution, sanitizers, hostile, grown, liars, pasted, mutants, and, if there is wrong.cpp, wrong.
 [[nodiscard]] std::vector<std::string> gateNames(const submission::ExerciseInfo& exercise);
 
 /// Runs one gate on the exercise. The gate wrong/NAME tests a single variant by itself, which takes longer

@@ -162,7 +162,7 @@ TEST_F(WrongVariantsTest, AreGatesThemselvesIfOneAsks) {
   EXPECT_EQ(gateNames(submission::readExerciseInfo(exercise())).back(), "wrong");
   EXPECT_TRUE(pass("wrong/library").passed);
   fs::remove(exercise() / "wrong.cpp");
-  EXPECT_EQ(gateNames(submission::readExerciseInfo(exercise())).back(), "pasted");
+  EXPECT_EQ(gateNames(submission::readExerciseInfo(exercise())).back(), "mutants");
   EXPECT_THROW(pass("wrong"), UsageError);
 }
 

@@ -33,7 +33,7 @@ TEST_F(ExerciseGates, PassesTheTemplateThroughAllGates) {
   const std::string gates = rex({"dev", "check", "98", "--list-gates"}).output;
   EXPECT_EQ(gates,
             "main-current\npoints\nnames\nrelease\nevidence\nmain-"
-            "floor\nmains\nsolution\nsanitizers\nhostile\ngrown\nliars\npasted\nwrong\n");
+            "floor\nmains\nsolution\nsanitizers\nhostile\ngrown\nliars\npasted\nmutants\nwrong\n");
 }
 
 TEST_F(ExerciseGates, TestsOneVariant) {
