@@ -16,6 +16,7 @@
 #include "base/folders.h"
 #include "base/text.h"
 #include "base/text_file.h"
+#include "submission/student_files.h"
 
 namespace rex::authoring {
 namespace {
@@ -302,8 +303,7 @@ class Scanner {
   }
 
   void judgeName(const std::string& place, const fs::path& name) {
-    for (const char* secret : {"solution.cpp", "wrong.cpp", "seen.txt"})
-      if (name.filename() == secret) refuse(place, "a file of that name");
+    if (submission::isForLecturers(name)) refuse(place, "a file of that name");
     if (isInstalled_ && name.filename() == "check.cpp") refuse(place, "a file of that name");
     const fs::path folders = name.parent_path();
     if (std::find(folders.begin(), folders.end(), "wrong") != folders.end())

@@ -63,9 +63,9 @@ struct LeakScan {
 enum class TreeKind { kSource, kInstalled };
 
 /// Searches names and contents of all files of a tree for secrets, in any layout, case and comments, also
-/// in nested archives and binary data. Also reports solution.cpp, wrong.cpp, seen.txt, region markers in C++
-/// files (except in share/template), git history, links, compiled files, and unreadable archives. In a file
-/// src/NAME equal to LIBRARY/NAME, only the secret of the course is a leak. Limits:
+/// in nested archives and binary data. Also reports files of submission::isForLecturers(), region markers in
+/// C++ files (except in share/template), git history, links, compiled files, and unreadable archives. In a
+/// file src/NAME equal to LIBRARY/NAME, only the secret of the course is a leak. Limits:
 /// share/doc/teaching.md. Throws Error for files that cannot be read.
 [[nodiscard]] LeakScan scanForLeaks(const std::filesystem::path& tree, const std::vector<Secret>& secrets,
                                     const std::filesystem::path& library = {},

@@ -14,6 +14,7 @@
 #include "base/folders.h"
 #include "base/text_file.h"
 #include "submission/regions.h"
+#include "submission/student_files.h"
 
 namespace rex::authoring {
 namespace {
@@ -75,7 +76,7 @@ void releaseExercise(const Copier& copier, const path& from, const path& to) {
   for (const auto& [name, text] : made) writeTextFile(to / name, text);
   for (const auto& entry : fs::directory_iterator(from)) {
     const path name = entry.path().filename();
-    if (name != "solution.cpp" && name != "wrong.cpp" && name != "seen.txt" && !made.contains(name.string()))
+    if (!submission::isForLecturers(name) && !made.contains(name.string()))
       copier.copy(entry.path(), to / name);
   }
 }

@@ -16,7 +16,7 @@ struct Release {
 };
 
 /// Writes the tree that packages for students are built from to `target`: all of `root` that builds and runs;
-/// exercises (those named by `only`, or all) without solution.cpp, wrong.cpp and seen.txt, with main.cpp and
+/// exercises (those named by `only`, or all) without submission::isForLecturers(), with main.cpp and
 /// its copy starter.cpp remade from the solution, and check.cpp without hidden blocks; no tests, history or
 /// results. Finally scans it for leaks of all exercises, also of the secret of the course if that file is
 /// given; helpers of checks are no leak there. Throws UsageError if the target is not empty, and Error,

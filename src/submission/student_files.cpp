@@ -33,10 +33,15 @@ bool isInFolder(const fs::path& folder, const std::string& name) {
 bool isNoData(const fs::path& name) {
   constexpr std::array kSource = {".cpp", ".h", ".hpp", ".cc", ".hh", ".cxx", ".inl", ".ipp"};
   const std::string ending = name.extension().string();
-  return name.filename() == "seen.txt" || std::find(kSource.begin(), kSource.end(), ending) != kSource.end();
+  return isForLecturers(name) || std::find(kSource.begin(), kSource.end(), ending) != kSource.end();
 }
 
 }  // namespace
+
+bool isForLecturers(const fs::path& name) {
+  constexpr std::array kNames = {"solution.cpp", "wrong.cpp", "seen.txt", "equal_mutants.tsv"};
+  return std::find(kNames.begin(), kNames.end(), name.filename()) != kNames.end();
+}
 
 std::vector<std::string> filesIncludedFrom(const fs::path& folder, std::vector<std::string> names) {
   std::erase_if(names, [&](const std::string& name) { return !isInFolder(folder, name); });

@@ -6,6 +6,9 @@
 
 namespace rex::submission {
 
+/// Whether a file of that name is for lecturers only: solution.cpp, wrong.cpp, seen.txt, equal_mutants.tsv.
+[[nodiscard]] bool isForLecturers(const std::filesystem::path& name);
+
 /// The files that students get of an exercise's folder, as sorted names relative to it: README.md,
 /// exercise.toml, main.cpp, starter.cpp, show.cpp, exercise.h, all headers there that one of these includes,
 /// directly or indirectly, and pictures and data that one of these files names. So no solution, check or

@@ -159,7 +159,7 @@ TEST_F(LeakScanTest, FindsWrongVariants) {
 TEST_F(LeakScanTest, LooksAtNames) {
   EXPECT_EQ(leakOf("return 3.14159265 * square;.txt", ""),
             std::string("return 3.14159265 * square;.txt: ") + kOfSolution);
-  for (const std::string name : {"solution.cpp", "wrong.cpp", "seen.txt"})
+  for (const std::string name : {"solution.cpp", "wrong.cpp", "seen.txt", "equal_mutants.tsv"})
     EXPECT_EQ(leakOf("exercises/01-circle/" + name, "int a;"),
               "exercises/01-circle/" + name + ": a file of that name would reach students");
   EXPECT_EQ(leakOf("exercises/01-circle/wrong/a.cpp", ""),

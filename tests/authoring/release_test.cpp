@@ -28,6 +28,7 @@ class ReleaseTest : public ::testing::Test {
           "exercises/01-demo/seen.txt"})
       write(file, file);
     write("exercises/01-demo/wrong.cpp", "// <variant thrice>\n// mistake: trebles the number.\n");
+    write("exercises/01-demo/equal_mutants.tsv", "a\tb\tc\n");
     write("exercises/01-demo/README.md", "Write `twice`.\n");
     write("README.md", "Run scripts/rex.\nRun scripts/test.\n| `tests/` | tests |\n| `notes/` | notes |\n");
     write("exercises/01-demo/main.cpp", "out of date\n");

@@ -20,10 +20,12 @@ void write(const fs::path& file, const std::string& text) {
 TEST(StudentFiles, AreThoseThatShownSourcesIncludeOrName) {
   const TemporaryFolder folder;
   const fs::path exercise = folder.path();
-  for (const char* name : {"README.md", "exercise.toml", "starter.cpp", "solution.cpp", "wrong.cpp",
-                           "seen.txt", "answers.csv", "checks.h", "other.cpp", "deep.h", "pictures/b.png"})
+  for (const char* name :
+       {"README.md", "exercise.toml", "starter.cpp", "solution.cpp", "wrong.cpp", "seen.txt",
+        "equal_mutants.tsv", "answers.csv", "checks.h", "other.cpp", "deep.h", "pictures/b.png"})
     write(exercise / name, "");
-  write(exercise / "README.md", "![a room](pictures/a.png), not seen.txt, checks.h or check.cpp\n");
+  write(exercise / "README.md",
+        "![a room](pictures/a.png), not seen.txt, equal_mutants.tsv, checks.h or check.cpp\n");
   write(exercise / "pictures/a.png", "");
   write(exercise / "room.csv", "");
   write(exercise / "exercise.h", "#include \"course/course.h\"\n#include <vector>\n#include \"../out.h\"\n");
