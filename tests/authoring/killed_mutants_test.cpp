@@ -74,6 +74,28 @@ TEST_F(KilledMutants, AreAllOfTheTemplate) {
               AllOf(StartsWith("made "), HasSubstr(" 0 survived, "), EndsWith("; 1 equal: not graded")));
 }
 
+// Whatever the sign of an angle or of a point, its distance from the origin is the same.
+TEST_F(KilledMutants, ShowWhichChecksNoneNeeds) {
+  write("solution.cpp", R"(#include "exercise.h"
+
+Eigen::Vector2d turned(const Eigen::Vector2d& p, double angle) { return Eigen::Rotation2Dd(-angle) * p; }
+
+Eigen::Vector2d rotated(const Eigen::Vector2d& p, double angle) {
+  // <solution rotated>
+  return turned(p, -angle);
+  // <todo>
+  //| return p;
+  // </solution>
+}
+
+int main() {}
+)");
+  const GateResult result = pass();
+  EXPECT_TRUE(result.passed) << result.message;
+  EXPECT_THAT(result.note, StartsWith("made 3 mutants of 3: 2 killed, 0 survived, 1 do not compile; "));
+  EXPECT_THAT(result.note, EndsWith(" s; no mutant needs keeps-length"));
+}
+
 TEST(DrawnMutants, FollowAFixedSeed) {
   std::vector<Mutant> all(40);
   for (int k = 0; k < 40; ++k) all[k].line = k;
