@@ -108,18 +108,20 @@ class MutantGrader {
   std::map<std::string, std::string> killers_{};  // the last check that failed, by function
 };
 
-// Takes away the mutants that the exercise lists as equal, and counts them.
-void setEqualAside(const path& file, std::vector<Mutant>& mutants, MutantCounts& counts) {
+// Takes those that the exercise lists as equal from the drawn mutants, and counts them. The others stay
+// drawn.
+void setEqualAside(const path& file, const std::vector<Mutant>& all, std::vector<Mutant>& drawn,
+                   MutantCounts& counts) {
   if (!std::filesystem::exists(file)) return;
   for (const EqualMutant& equal : readEqualMutants(readTextFile(file), file.string())) {
-    const std::size_t found = std::erase_if(mutants, [&](const Mutant& mutant) {
+    const auto isIt = [&](const Mutant& mutant) {
       return mutant.before == equal.before && mutant.after == equal.after;
-    });
-    if (found == 0)
+    };
+    if (std::none_of(all.begin(), all.end(), isIt))
       counts.complaints.push_back(fmt::format("{}:{}: no mutant is '{}' -> '{}'", file.filename().string(),
                                               equal.line, equal.before, equal.after));
-    else
-      counts.equal[equal.reason] += found;
+    else if (const std::size_t number = std::erase_if(drawn, isIt); number > 0)
+      counts.equal[equal.reason] += number;
   }
 }
 
@@ -154,11 +156,10 @@ MutantCounts countMutants(const GateContext& context) {
   const auto start = std::chrono::steady_clock::now();
   const path file = context.exercise.folder / "solution.cpp";
   const std::string solution = readTextFile(file), open = withoutUnnamedNamespaces(solution);
-  std::vector<Mutant> mutants = mutantsOf(solution, file.string());
-  MutantCounts counts{.possible = mutants.size()};
-  setEqualAside(context.exercise.folder / "equal_mutants.tsv", mutants, counts);
-  mutants = drawnMutants(std::move(mutants), kMostMutants);
-  counts.made = mutants.size();
+  const std::vector<Mutant> all = mutantsOf(solution, file.string());
+  std::vector<Mutant> mutants = drawnMutants(all, kMostMutants);
+  MutantCounts counts{.possible = all.size(), .made = mutants.size()};
+  setEqualAside(context.exercise.folder / "equal_mutants.tsv", all, mutants, counts);
   std::vector<std::string> sources;
   for (const Mutant& mutant : mutants)
     sources.push_back(submission::referenceText(mutated(open, mutant), file.string()));

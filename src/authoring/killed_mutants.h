@@ -25,10 +25,10 @@ struct EqualMutant {
 /// What became of the mutants of an exercise.
 struct MutantCounts {
   std::size_t possible = 0;  ///< all that mutantsOf() finds
-  std::size_t made = 0;      ///< of these: those that were tried
+  std::size_t made = 0;      ///< of these: those that were drawn
   std::size_t rejected = 0;  ///< that do not compile
   std::size_t killed = 0, survived = 0;
-  std::map<std::string, std::size_t> equal{};  ///< listed in equal_mutants.tsv, by reason
+  std::map<std::string, std::size_t> equal{};  ///< listed in equal_mutants.tsv and not tried, by reason
   double seconds = 0;
   std::vector<std::string> complaints{};  ///< survivors, and lines of equal_mutants.tsv that fit no mutant
   std::vector<std::string> idleChecks{};  ///< no mutant's answers failed them
