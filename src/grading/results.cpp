@@ -4,16 +4,17 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/escape.h"
 #include "base/sha256.h"
 #include "base/text_file.h"
+#include "grading/results_internal.h"
 
 namespace rex::grading {
 namespace {
 
+using Json = nlohmann::ordered_json;
 // Sorts keys: their order in the file does not count.
 using SortedJson = nlohmann::json;
 
@@ -47,25 +48,6 @@ void requireSums(const GradeResult& result, const std::filesystem::path& file) {
 
 }  // namespace
 
-GradeResult loadSoundResult(const std::filesystem::path& file) {
-  const std::string text = readTextFile(file);
-  GradeResult result = gradeResultFromJson(text, file.string());
-  requireSums(result, file);
-  const SortedJson json = SortedJson::parse(text);
-  if (!json.contains("inputs")) return result;
-  const SortedJson& inputs = json["inputs"];
-  const bool isSealed =
-      inputs.is_object() && inputs.contains("result_sha256") && inputs["result_sha256"].is_string();
-  const std::string found = computeSeal(text, file.string()),
-                    wanted = isSealed ? inputs["result_sha256"].get<std::string>() : "none";
-  if (found != wanted)
-    throw Error({.what = "a result that was changed after the grading",
-                 .where = {file.string()},
-                 .found = "hash " + found.substr(0, 12),
-                 .wanted = wanted.substr(0, 12) + ", or a new grading"});
-  return result;
-}
-
 bool awaitsHiddenChecks(const GradeResult& result) {
   bool awaits = false;
   for (const CheckResult& check : result.checks) {
@@ -74,15 +56,6 @@ bool awaitsHiddenChecks(const GradeResult& result) {
     awaits = true;
   }
   return awaits && result.outcome == Outcome::kGraderError;
-}
-
-std::string computeSeal(const std::string& text, const std::string& file) {
-  SortedJson json = SortedJson::parse(text, nullptr, false);
-  if (!json.is_object())
-    throw Error({.what = "result file: not JSON", .where = {.file = file}, .wanted = "a result"});
-  json.erase("volatile");
-  json.erase("inputs");
-  return sha256(json.dump(-1, ' ', false, SortedJson::error_handler_t::replace));
 }
 
 GradeResult loadResult(const std::filesystem::path& file) {
@@ -94,8 +67,6 @@ void saveResult(const GradeResult& result, const std::filesystem::path& file) {
 }
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "grade-result/1";
 
@@ -366,11 +337,54 @@ std::string toJson(const GradeResult& result) {
   return shown(resultToJson(result)).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-GradeResult gradeResultFromJson(const std::string& text, const std::string& file) {
-  const Json json = Json::parse(text, nullptr, false);
+GradeResult resultFromParsed(const Json& json, const std::string& file) {
   if (json.is_discarded())
     throw Error({.what = "result file: not JSON", .where = {.file = file}, .wanted = kSchema});
   return readResult(Fields(json, "", file));
+}
+
+namespace {
+
+std::string sealOf(const Json& json) {
+  SortedJson counted = SortedJson::object();
+  for (const auto& [key, value] : json.items())
+    if (key != "volatile" && key != "inputs") counted[key] = value;
+  return sha256(counted.dump(-1, ' ', false, SortedJson::error_handler_t::replace));
+}
+
+}  // namespace
+
+void requireSound(const GradeResult& result, const Json& json, const std::filesystem::path& file) {
+  requireSums(result, file);
+  if (!json.contains("inputs")) return;
+  const Json& inputs = json["inputs"];
+  const bool isSealed =
+      inputs.is_object() && inputs.contains("result_sha256") && inputs["result_sha256"].is_string();
+  const std::string found = sealOf(json),
+                    wanted = isSealed ? inputs["result_sha256"].get<std::string>() : "none";
+  if (found != wanted)
+    throw Error({.what = "a result that was changed after the grading",
+                 .where = {file.string()},
+                 .found = "hash " + found.substr(0, 12),
+                 .wanted = wanted.substr(0, 12) + ", or a new grading"});
+}
+
+GradeResult gradeResultFromJson(const std::string& text, const std::string& file) {
+  return resultFromParsed(Json::parse(text, nullptr, false), file);
+}
+
+std::string computeSeal(const std::string& text, const std::string& file) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object())
+    throw Error({.what = "result file: not JSON", .where = {.file = file}, .wanted = "a result"});
+  return sealOf(json);
+}
+
+GradeResult loadSoundResult(const std::filesystem::path& file) {
+  const Json json = Json::parse(readTextFile(file), nullptr, false);
+  GradeResult result = resultFromParsed(json, file.string());
+  requireSound(result, json, file);
+  return result;
 }
 
 }  // namespace rex::grading
