@@ -12,7 +12,6 @@
 #include "base/error.h"
 #include "classroom/import_table.h"
 #include "classroom/task_list.h"
-#include "grading/results.h"
 
 namespace rex::classroom {
 namespace {
@@ -30,20 +29,22 @@ std::vector<fs::path> foldersIn(const fs::path& folder) {
   return folders;
 }
 
-StudentResult readOne(const fs::path& folder) {
-  const fs::path file = folder / "results.json";
-  if (!fs::exists(file))
-    throw Error(
-        {.what = "not counted", .where = {file.string()}, .found = "no result", .wanted = "this file"});
-  StudentResult read{.student = folder.parent_path().filename().string(),
-                     .exercise = folder.filename().string(),
-                     .result = grading::loadSoundResult(file)};
-  if (read.result.exerciseId != read.exercise)
+void readOne(const fs::path& folder, ClassResults& all) {
+  const std::string student = folder.parent_path().filename().string(), exercise = folder.filename().string();
+  StoredFiles& files = all.files[{student, exercise}] = readStoredFiles(folder);
+  const std::string file = (folder / kResults).string();
+  if (!files.counts)
+    throw Error({.what = "not counted", .where = {file}, .found = "no result", .wanted = "this file"});
+  const grading::ResultFile& counts = *files.counts;
+  if (!counts.fault.empty())
+    all.complaints.push_back(counts.fault);
+  else if (counts.result->exerciseId != exercise)
     throw Error({.what = "not counted",
-                 .where = {file.string()},
-                 .found = fmt::format("a result of '{}'", read.result.exerciseId),
-                 .wanted = fmt::format("one of '{}'", read.exercise)});
-  return read;
+                 .where = {file},
+                 .found = fmt::format("a result of '{}'", counts.result->exerciseId),
+                 .wanted = fmt::format("one of '{}'", exercise)});
+  else
+    all.results.push_back({.student = student, .exercise = exercise, .result = *counts.result});
 }
 
 std::size_t binOf(int points, int possible) {
@@ -208,7 +209,7 @@ ClassResults readClassResults(const fs::path& folder) {
     try {
       for (const fs::path& exercise : foldersIn(student)) {
         try {
-          all.results.push_back(readOne(exercise));
+          readOne(exercise, all);
         } catch (const Error& error) {
           all.complaints.emplace_back(error.what());
         }
@@ -225,6 +226,15 @@ ClassResults readClassResults(const fs::path& folder) {
   std::stable_sort(all.results.begin(), all.results.end(),
                    [](const StudentResult& a, const StudentResult& b) { return a.exercise < b.exercise; });
   return all;
+}
+
+ClassRun runOf(const std::vector<Task>& tasks, const fs::path& folder, const ClassResults& read) {
+  ClassRun run{.out = folder};
+  for (const Task& task : tasks) {
+    const auto known = read.files.find({task.student, task.exercise});
+    run.add(task, known != read.files.end() ? known->second : readStoredFiles(resultFolder(folder, task)));
+  }
+  return run;
 }
 
 std::string failureClass(const grading::CheckResult& check, const grading::GradeResult& whole) {

@@ -6,9 +6,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "classroom/gradebook.h"
+#include "classroom/stored_result.h"
 #include "grading/results.h"
 
 namespace rex::classroom {
@@ -28,14 +30,20 @@ struct StudentResult {
 struct ClassResults {
   std::vector<StudentResult> results{};   ///< by exercise, then by student
   std::vector<std::string> complaints{};  ///< files that are not results, were changed, or of other exercises
+  std::map<std::pair<std::string, std::string>, StoredFiles>
+      files{};  ///< by student and exercise, as they were read
 };
 
 /// Throws Error if the folder itself cannot be read.
 [[nodiscard]] ClassResults readClassResults(const std::filesystem::path& folder);
 
-/// The same for the people of a grade book: a result that a group handed in counts for each of its members,
-/// one that a later one replaced for nobody, and that of a stranger not at all. Points of checks are those
-/// after adjustments by people, rounded; changes of final points and lateness are left out.
+/// The tasks of the folder with what was read there, so that no file is read again.
+[[nodiscard]] ClassRun runOf(const std::vector<Task>& tasks, const std::filesystem::path& folder,
+                             const ClassResults& read);
+
+/// Those results for the people of a grade book: a result that a group handed in counts for each of its
+/// members, one that a later one replaced for nobody, and that of a stranger not at all. Points of checks are
+/// those after adjustments by people, rounded; changes of final points and lateness are left out.
 [[nodiscard]] ClassResults resultsByPerson(const ClassResults& read, const Gradebook& book);
 
 struct CheckStatistics {

@@ -9,7 +9,6 @@
 #include "base/instant.h"
 #include "base/text.h"
 #include "base/text_file.h"
-#include "classroom/grade_task.h"
 #include "classroom/submission_folder.h"
 #include "grading/results.h"
 
@@ -36,9 +35,10 @@ std::string targetOf(const grading::GradeResult& result, const grading::CheckRes
 /// Makes the rows of a grade book.
 class BookMaker {
  public:
-  explicit BookMaker(const GradebookSource& source)
-      : source_(source),
-        course_(withStudents(source.course, source.tasks, source.imported)),
+  BookMaker(const ClassRun& run, const GradebookSource& source)
+      : run_(run),
+        source_(source),
+        course_(withStudents(source.course, run.tasks, source.imported)),
         owners_(course_, source.imported) {}
 
   Gradebook make() {
@@ -60,7 +60,7 @@ class BookMaker {
   // An exercise that nobody handed in has not been graded yet: nobody misses points in it.
   void chooseExercises() {
     std::set<std::string> graded;
-    for (const Task& task : source_.tasks) graded.insert(task.exercise);
+    for (const Task& task : run_.tasks) graded.insert(task.exercise);
     for (const std::string& exercise : graded) {
       if (!source_.only.empty() && exercise != source_.only) continue;
       shown_.push_back(exercise);
@@ -85,8 +85,8 @@ class BookMaker {
   }
 
   void assignTasks() {
-    for (std::size_t k = 0; k < source_.tasks.size(); ++k) {
-      const Task& task = source_.tasks[k];
+    for (std::size_t k = 0; k < run_.tasks.size(); ++k) {
+      const Task& task = run_.tasks[k];
       const std::vector<std::string> ids = owners_.of(task.student, task.exercise);
       for (const std::string& id : ids) candidates_[{id, task.exercise}].push_back(k);
       if (ids.empty() && holds(shown_, task.exercise)) book_.strangers.push_back(strangerOf(k));
@@ -94,7 +94,7 @@ class BookMaker {
     std::set<std::string> told;
     for (auto& [key, tasks] : candidates_) {
       std::stable_sort(tasks.begin(), tasks.end(), [&](std::size_t a, std::size_t b) {
-        return source_.tasks[a].submitted < source_.tasks[b].submitted;
+        return run_.tasks[a].submitted < run_.tasks[b].submitted;
       });
       if (tasks.size() > 1 && holds(shown_, key.second))
         if (const std::string text = severalText(tasks); told.insert(text).second)
@@ -105,10 +105,9 @@ class BookMaker {
   std::string severalText(const std::vector<std::size_t>& tasks) const {
     std::vector<std::string> names;
     for (const std::size_t k : tasks)
-      names.push_back(
-          fmt::format("'{}' ({})", source_.tasks[k].student, instantText(source_.tasks[k].submitted)));
+      names.push_back(fmt::format("'{}' ({})", run_.tasks[k].student, instantText(run_.tasks[k].submitted)));
     return fmt::format("{} was handed in {} times by one student or group: {}; the last one counts",
-                       source_.tasks[tasks.front()].exercise, tasks.size(), join(names, ", "));
+                       run_.tasks[tasks.front()].exercise, tasks.size(), join(names, ", "));
   }
 
   void assignRejected() {
@@ -128,11 +127,11 @@ class BookMaker {
   }
 
   GradeRow strangerOf(std::size_t task) {
-    GradeRow row{.student = {.id = source_.tasks[task].student}, .exercise = source_.tasks[task].exercise};
+    GradeRow row{.student = {.id = run_.tasks[task].student}, .exercise = run_.tasks[task].exercise};
     if (const ImportedStudent* person = source_.imported.find(row.student.id))
       row.student.name = person->name, row.student.email = person->email;
     row.remark = "not on the roster";
-    if (const RosterFault* fault = faultOf(source_.tasks[task])) row.remark += ": " + fault->why;
+    if (const RosterFault* fault = faultOf(run_.tasks[task])) row.remark += ": " + fault->why;
     take(task, row);
     finish(row);
     return row;
@@ -178,14 +177,15 @@ class BookMaker {
   }
 
   void take(std::size_t index, GradeRow& row) {
-    const Task& task = source_.tasks[index];
+    const Task& task = run_.tasks[index];
     row.task = index;
     row.timeZone = course_.timeZone;
     row.handedInAs = task.student;
     row.submitted = task.submitted;
     row.timeFrom = task.timeFrom;
     row.status = RowStatus::kToRepeat;
-    const TaskState state = taskState(task, source_.out);
+    const StoredResult& stored = run_.stored[index];
+    const TaskState state = stored.state;
     if (task.student != row.student.id)
       row.remark += (row.remark.empty() ? "" : "; ") + ("handed in by " + task.student);
     if (state == TaskState::kMissing) row.remark = "there is no result yet";
@@ -193,7 +193,7 @@ class BookMaker {
     if (state == TaskState::kFailed) row.remark = "the grader failed";
     if (state == TaskState::kRefused) row.remark = "the result was changed after the grading";
     if (state != TaskState::kDone) return;
-    row.result = grading::loadResult(resultFolder(source_.out, task) / "results.json");
+    row.result = stored.result;
     row.status = RowStatus::kGraded;
     row.possible = kWhole * row.result->maxScore;
   }
@@ -217,7 +217,7 @@ class BookMaker {
                                         row.student.id, row.exercise));
       return;
     }
-    const std::string text = readTextFile(source_.out / source_.tasks[*row.task].file);
+    const std::string text = readTextFile(run_.out / run_.tasks[*row.task].file);
     const auto lines = splitLines(text).size();
     if (comment.line > static_cast<int>(lines))
       throw Error({.what = fmt::format("a comment on line {} of {}", comment.line, row.student.id),
@@ -337,6 +337,7 @@ class BookMaker {
   const std::map<std::string, std::int64_t>& weights() const { return course_.weights; }
 
   using Key = std::pair<std::string, std::string>;  // student, exercise
+  const ClassRun& run_;
   const GradebookSource& source_;
   Course course_;
   SubmissionOwners owners_;
@@ -404,7 +405,9 @@ std::optional<reports::Judgement> taskJudgement(const Gradebook& book, const std
   return judgement;
 }
 
-Gradebook makeGradebook(const GradebookSource& source) { return BookMaker(source).make(); }
+Gradebook makeGradebook(const ClassRun& run, const GradebookSource& source) {
+  return BookMaker(run, source).make();
+}
 
 Course withStudents(Course course, const std::vector<Task>& tasks, const ImportTable& imported) {
   if (!course.hasRoster()) {

@@ -10,6 +10,7 @@
 #include "classroom/adjustments.h"
 #include "classroom/course_file.h"
 #include "classroom/import_table.h"
+#include "classroom/stored_result.h"
 #include "classroom/submission_folder.h"
 #include "classroom/task_list.h"
 #include "grading/results.h"
@@ -77,11 +78,9 @@ struct Gradebook {
   [[nodiscard]] Course everyone() const;
 };
 
-/// What grade books are made of.
+/// What grade books are made of, besides results.
 struct GradebookSource {
-  std::vector<Task> tasks{};
-  std::filesystem::path out{};  ///< the folder of results
-  Course course{};              ///< without students: everybody who handed something in
+  Course course{};  ///< without students: everybody who handed something in
   Adjustments adjustments{};
   ImportTable imported{};
   std::vector<RejectedSubmission> rejected{};
@@ -90,9 +89,9 @@ struct GradebookSource {
 };
 
 /// Everyone on the roster gets a row for each exercise of the course that was graded. If a student and the
-/// members of the student's group handed in several, the last one counts for all. Throws Error for results
-/// that cannot be read, and for adjustments and comments that do not fit what was graded.
-[[nodiscard]] Gradebook makeGradebook(const GradebookSource& source);
+/// members of the student's group handed in several, the last one counts for all. Throws Error for
+/// adjustments and comments that do not fit what was graded.
+[[nodiscard]] Gradebook makeGradebook(const ClassRun& run, const GradebookSource& source);
 
 /// The course, with everybody who handed something in if it has no roster. Names and e-mails that the
 /// roster lacks come from the platforms.

@@ -104,4 +104,17 @@ std::vector<Task> readManifest(const std::filesystem::path& file) {
   return tasks;
 }
 
+std::string numberRanges(std::vector<int> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  std::string text;
+  for (std::size_t k = 0; k < numbers.size();) {
+    std::size_t last = k;
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+    text += fmt::format("{}{}", text.empty() ? "" : ",", numbers[k]);
+    if (last > k) text += fmt::format("-{}", numbers[last]);
+    k = last + 1;
+  }
+  return text;
+}
+
 }  // namespace rex::classroom

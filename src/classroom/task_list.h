@@ -34,4 +34,7 @@ struct Task {
 /// Reads it back. Throws Error with the line if the text is malformed.
 [[nodiscard]] std::vector<Task> readManifest(const std::filesystem::path& file);
 
+/// "1,4-6,9": how batch systems name tasks.
+[[nodiscard]] std::string numberRanges(std::vector<int> numbers);
+
 }  // namespace rex::classroom

@@ -22,7 +22,7 @@ const std::string kEx = "01-kinematics";
 class ClassFeedbackTest : public ::testing::Test {
  protected:
   ClassFeedbackTest() {
-    source_.out = folder_.path() / "results";
+    run_.out = folder_.path() / "results";
     source_.points = {{kEx, 10}};
     for (const char* student : {"adam", "zoe"}) {
       const std::string mark = std::string("PLANTED-") + student;
@@ -33,23 +33,24 @@ class ClassFeedbackTest : public ::testing::Test {
       result.checks[0].picture = "checks/hand.png", result.checks[1].replay = "checks/turn.html";
       result.checks[2].picture = "checks/far.png";
       const Task task = sampleTask(student);
-      saveSample(source_.out, task, result, "int main() {}\n// " + mark + "-line </td>\n");
+      saveSample(run_.out, task, result, "int main() {}\n// " + mark + "-line </td>\n");
       for (const char* name : {"hand.png", "turn.html", "far.png"})
-        writeTextFile(resultFolder(source_.out, task) / "checks" / name, mark + "-" + name);
-      source_.tasks.push_back(task);
+        writeTextFile(resultFolder(run_.out, task) / "checks" / name, mark + "-" + name);
+      run_.tasks.push_back(task);
       source_.adjustments.comments.push_back(
           {.students = {student}, .exercise = kEx, .line = 2, .text = mark + "-comment", .author = "Tutor"});
     }
   }
-  Gradebook book() const { return makeGradebook(source_); }
+  Gradebook book() const { return makeGradebook(readClassRun(run_.tasks, run_.out), source_); }
 
   TemporaryFolder folder_;
+  ClassRun run_;  // without what is stored: tests change it
   GradebookSource source_;
 };
 
 TEST_F(ClassFeedbackTest, ShowsEachStudentNothingOfOthersNorOfHiddenChecks) {
   const fs::path out = folder_.path() / "feedback";
-  EXPECT_EQ(writeFeedbackFolders(book(), source_.out, out), 2);
+  EXPECT_EQ(writeFeedbackFolders(book(), run_.out, out), 2);
   for (const std::string student : {"adam", "zoe"}) {
     const std::string other = student == "adam" ? "zoe" : "adam", mark = "PLANTED-" + student;
     std::string all;
@@ -75,23 +76,23 @@ TEST_F(ClassFeedbackTest, ShowsEachStudentNothingOfOthersNorOfHiddenChecks) {
 TEST_F(ClassFeedbackTest, ShowsPointsOfPeopleInTheRowOfTheirCheckAndInItsPart) {
   grading::GradeResult result = sampleResult(3, 1, 0);
   result.checks[0].part = "pos";
-  saveSample(source_.out, source_.tasks[0], result, "a\nb\n");
+  saveSample(run_.out, run_.tasks[0], result, "a\nb\n");
   source_.adjustments.adjustments = {{.students = {"adam"}, .exercise = kEx, .check = "turn", .add = 150}};
-  const auto feedback = rowFeedback(*book().row("adam", kEx), source_.out).value();
+  const auto feedback = rowFeedback(*book().row("adam", kEx), run_.out).value();
   EXPECT_THAT(reports::feedbackPage(feedback, {}),
               AllOf(HasSubstr("<td>2.5/4 instead of 1/4</td>"), HasSubstr("<td>3/3</td>"),
                     HasSubstr("By part: pos 3/3, kin 2.5/7.")));
 }
 
 TEST_F(ClassFeedbackTest, NeverTakesFilesFromElsewhere) {
-  const Task task = source_.tasks[0];
+  const Task task = run_.tasks[0];
   for (const char* name : {"../../zoe/01-kinematics/main.cpp", "/etc/hostname", "checks/../main.cpp",
                            "checks/none.png", "main.cpp"}) {
     grading::GradeResult result = sampleResult(3, 1, 0);
     result.checks[0].picture = name;
-    saveSample(source_.out, task, result);
+    saveSample(run_.out, task, result);
     source_.adjustments.comments.clear();
-    EXPECT_TRUE(evidenceFiles(*book().row("adam", kEx), source_.out).empty()) << name;
+    EXPECT_TRUE(evidenceFiles(*book().row("adam", kEx), run_.out).empty()) << name;
   }
 }
 
@@ -101,31 +102,31 @@ TEST_F(ClassFeedbackTest, SaysWhatDoesNotCompileAndGivesNothingForNothing) {
   for (grading::CheckResult& check : result.checks) check.status = {};
   result.compile.diagnostics = {
       {.file = "main.cpp", .line = 2, .severity = "error", .message = "expected '}' <x>"}};
-  saveSample(source_.out, source_.tasks[0], result, "a\nb\n");
-  source_.tasks.pop_back();
+  saveSample(run_.out, run_.tasks[0], result, "a\nb\n");
+  run_.tasks.pop_back();
   source_.adjustments = {};
-  const auto feedback = rowFeedback(*book().row("adam", kEx), source_.out).value();
+  const auto feedback = rowFeedback(*book().row("adam", kEx), run_.out).value();
   EXPECT_THAT(reports::feedbackPage(feedback, {}),
               HasSubstr("<pre>main.cpp:2: error: expected &#39;}&#39; &#60;x&#62;"));
-  EXPECT_FALSE(rowFeedback(*book().row("zoe", kEx), source_.out).has_value());
+  EXPECT_FALSE(rowFeedback(*book().row("zoe", kEx), run_.out).has_value());
 }
 
 TEST_F(ClassFeedbackTest, RefusesStudentsWhoseNameIsNoFolder) {
   Gradebook all = book();
   all.rows[0].student.id = "../zoe";
-  EXPECT_REX_ERROR(writeFeedbackFolders(all, source_.out, folder_.path() / "x"),
+  EXPECT_REX_ERROR(writeFeedbackFolders(all, run_.out, folder_.path() / "x"),
                    "no folder for '../zoe': found ");
 }
 
 TEST_F(ClassFeedbackTest, ReplacesItsOwnFilesAndNoOthers) {
   const fs::path out = folder_.path() / "feedback", zoe = out / "zoe" / kEx;
-  EXPECT_EQ(writeFeedbackFolders(book(), source_.out, out), 2);
-  fs::remove(source_.out / "zoe" / kEx / "results.json");
-  EXPECT_EQ(writeFeedbackFolders(book(), source_.out, out), 1);
+  EXPECT_EQ(writeFeedbackFolders(book(), run_.out, out), 2);
+  fs::remove(run_.out / "zoe" / kEx / "results.json");
+  EXPECT_EQ(writeFeedbackFolders(book(), run_.out, out), 1);
   EXPECT_FALSE(fs::exists(zoe)) << "of a result that is no more";
   writeTextFile(zoe / "main.cpp", "mine");
   EXPECT_REX_ERROR(
-      writeFeedbackFolders(book(), source_.out, out),
+      writeFeedbackFolders(book(), run_.out, out),
       "not replaced by feedback: found 'main.cpp', which no export wrote, wanted another folder");
   EXPECT_EQ(fileText(zoe / "main.cpp"), "mine");
 }

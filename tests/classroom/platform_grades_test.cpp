@@ -19,15 +19,15 @@ const std::string kEx = "01-kinematics";
 class PlatformGradesTest : public ::testing::Test {
  protected:
   PlatformGradesTest() {
-    source_.out = folder_.path() / "results";
+    run_.out = folder_.path() / "results";
     source_.points = {{kEx, 10}};
     source_.course.students = {
         {.id = "adam", .name = "Adam =1+2", .email = "adam@uni.example", .number = "4711"},
         {.id = "bob", .name = "Müller, Bob", .section = "A"}};
-    saveSample(source_.out, sampleTask("adam"), sampleResult(3, 4, 0));
-    source_.tasks = {sampleTask("adam")};
+    saveSample(run_.out, sampleTask("adam"), sampleResult(3, 4, 0));
+    run_.tasks = {sampleTask("adam")};
   }
-  Gradebook book() const { return makeGradebook(source_); }
+  Gradebook book() const { return makeGradebook(readClassRun(run_.tasks, run_.out), source_); }
   Worksheet worksheet(const std::string& text, bool scale = false) const {
     writeTextFile(file(), text);
     return moodleGrades(file(), book(), kEx, source_.imported, scale);
@@ -35,6 +35,7 @@ class PlatformGradesTest : public ::testing::Test {
   std::string file() const { return (folder_.path() / "worksheet.csv").string(); }
 
   TemporaryFolder folder_;
+  ClassRun run_;  // without what is stored: tests change it
   GradebookSource source_;
 };
 
@@ -47,7 +48,7 @@ TEST_F(PlatformGradesTest, WritesTheColumnsOfGradescopeAndCanvas) {
             "    Points Possible,,,,,10\n"
             "Adam =1+2,,4711,adam,,7\n\"Müller, Bob\",,bob,bob,A,\n");
   EXPECT_THAT(canvasGrades(book()).notes, IsEmpty());
-  source_.tasks[0].seed = 3;  // another seed: the result is stale
+  run_.tasks[0].seed = 3;  // another seed: the result is stale
   EXPECT_THAT(gradescopeGrades(book()).notes,
               ElementsAre("adam 01-kinematics: no grade yet (the result is for other inputs)"));
 }

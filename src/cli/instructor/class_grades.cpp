@@ -50,24 +50,22 @@ std::vector<std::string> courseExercises(const Project& project, const classroom
 }
 
 classroom::GradebookSource readGradebookSource(const Project& project, const ClassFiles& files,
-                                               const std::vector<classroom::Task>& tasks, const fs::path& out,
-                                               const std::string& only) {
-  classroom::GradebookSource source{.tasks = tasks, .out = out, .only = only};
-  source.course = readClassCourse(project, files);
-  source.imported = classroom::importTableIn(out);
-  source.rejected = classroom::readRejected(out / kRejectedFile);
+                                               const classroom::ClassRun& run, const std::string& only) {
+  classroom::GradebookSource source{.course = readClassCourse(project, files),
+                                    .imported = classroom::importTableIn(run.out),
+                                    .rejected = classroom::readRejected(run.out / kRejectedFile),
+                                    .only = only};
   for (const ExerciseInfo& exercise : project.exercises()) source.points[exercise.name] = exercise.points();
   const fs::path adjustments = files.adjustments.empty() ? source.course.adjustments : files.adjustments;
   if (!adjustments.empty())
     source.adjustments = classroom::readAdjustments(
-        adjustments, classroom::withStudents(source.course, tasks, source.imported), project.exercises());
+        adjustments, classroom::withStudents(source.course, run.tasks, source.imported), project.exercises());
   return source;
 }
 
 classroom::Gradebook readGradebook(const Project& project, const ClassFiles& files,
-                                   const std::vector<classroom::Task>& tasks, const fs::path& out,
-                                   const std::string& only) {
-  return classroom::makeGradebook(readGradebookSource(project, files, tasks, out, only));
+                                   const classroom::ClassRun& run) {
+  return classroom::makeGradebook(run, readGradebookSource(project, files, run));
 }
 
 void writeBook(const classroom::Gradebook& book, const fs::path& out, bool print) {
@@ -95,7 +93,7 @@ void writeBook(const classroom::Gradebook& book, const fs::path& out, bool print
 ExitCode explainResults(const Project& project, const ExplainOptions& options) {
   const std::string name = project.exercise(options.exercise).name;
   const classroom::Gradebook book =
-      readGradebook(project, options.files, tasksIn(options.out, options.manifest), options.out);
+      readGradebook(project, options.files, runIn(options.out, options.manifest));
   std::vector<std::string> known, folders;
   for (const classroom::StudentTotal& sum : book.totals)
     known.insert(known.end(), {sum.student.id, sum.student.name});
@@ -152,6 +150,10 @@ std::vector<classroom::Task> tasksIn(const fs::path& results, const fs::path& ma
                       .where = {file.string()},
                       .wanted = "one that rex grade --manifest wrote"});
   return classroom::readManifest(file);
+}
+
+classroom::ClassRun runIn(const fs::path& results, const fs::path& manifest) {
+  return classroom::readClassRun(tasksIn(results, manifest), results);
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include "base/exit_code.h"
 #include "classroom/class_statistics.h"
 #include "classroom/gradebook.h"
+#include "classroom/stored_result.h"
 #include "classroom/task_list.h"
 #include "cli/project.h"
 #include "render/figure.h"
@@ -36,16 +37,13 @@ inline constexpr const char *kRejectedFile = "not_taken.tsv", *kTotals = "totals
 [[nodiscard]] std::vector<std::string> courseExercises(const Project& project,
                                                        const classroom::Course& course);
 
-/// What makes the grade book of a folder of results, and the book: the list of tasks, what was not taken and
-/// the table of imports lie in it. Throws like the readers of these files.
+/// What makes the grade book of a folder of results, and the book: what was not taken and the table of
+/// imports lie in it. `only`: an exercise; empty: all. Throws like the readers of these files.
 [[nodiscard]] classroom::GradebookSource readGradebookSource(const Project& project, const ClassFiles& files,
-                                                             const std::vector<classroom::Task>& tasks,
-                                                             const std::filesystem::path& out,
+                                                             const classroom::ClassRun& run,
                                                              const std::string& only = {});
 [[nodiscard]] classroom::Gradebook readGradebook(const Project& project, const ClassFiles& files,
-                                                 const std::vector<classroom::Task>& tasks,
-                                                 const std::filesystem::path& out,
-                                                 const std::string& only = {});
+                                                 const classroom::ClassRun& run);
 
 /// Writes grades.csv, totals.csv and the table of people who are not on the roster, and tells the notes.
 void writeBook(const classroom::Gradebook& book, const std::filesystem::path& out, bool print);
@@ -58,7 +56,7 @@ struct ExplainOptions {
   bool json = false;
 };
 /// Prints how a grade came about. Throws UsageError, with the nearest names, if there is no such row, and
-/// like tasksIn().
+/// like runIn().
 ExitCode explainResults(const Project& project, const ExplainOptions& options);
 
 /// Throws UsageError if one of the folders is in the other one: files written there would be taken for
@@ -70,10 +68,12 @@ void requireApart(const std::string& option, const std::filesystem::path& folder
 /// should be in it.
 void requireFolder(const std::filesystem::path& folder, const std::string& wanted);
 
-/// The list of tasks of a folder of results; `manifest`: another file with it. Throws UsageError if there is
-/// no such folder or list, and Error like readManifest().
+/// The list of tasks of a folder of results, also with what is stored for each; `manifest`: another file with
+/// it. Throws UsageError if there is no such folder or list, and Error like readManifest().
 [[nodiscard]] std::vector<classroom::Task> tasksIn(const std::filesystem::path& results,
                                                    const std::filesystem::path& manifest = {});
+[[nodiscard]] classroom::ClassRun runIn(const std::filesystem::path& results,
+                                        const std::filesystem::path& manifest = {});
 
 /// The points of every student in each exercise, in percent of the maximum, over the exercise's number
 /// ("01-kinematics" is 1; one without a number gets the next after the largest). Equal points are drawn

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/instant.h"
 #include "base/text.h"
 #include "base/text_file.h"
 #include "classroom/csv.h"
-#include "classroom/grade_task.h"
 #include "cli/instructor/class_grades.h"
 #include "cli/json_internal.h"
 #include "cli/report_format.h"
@@ -21,6 +21,8 @@ namespace rex::cli {
 
 namespace {
 
+using classroom::ClassRun;
+using classroom::StoredResult;
 using classroom::Task;
 using classroom::TaskState;
 
@@ -40,46 +42,33 @@ const char* toString(TaskState state) {
   return "";
 }
 
-Json optionalJson(const std::optional<int>& number) { return number ? Json(*number) : Json(); }
-
-Json statesJson(const std::vector<Task>& tasks, const std::filesystem::path& out) {
+Json statesJson(const ClassRun& run) {
   Json list = Json::array();
   bool isComplete = true;
-  for (std::size_t k = 0; k < tasks.size(); ++k) {
-    const Task& task = tasks[k];
-    const TaskState state = classroom::taskState(task, out);
-    isComplete = isComplete && state == TaskState::kDone;
-    std::optional<int> points, possible;
-    if (state == TaskState::kDone) {
-      const grading::GradeResult result =
-          grading::loadResult(classroom::resultFolder(out, task) / "results.json");
-      points = result.score, possible = result.maxScore;
-    }
-    list.push_back(
-        {{"task", k + 1},
-         {"student", task.student},
-         {"exercise", task.exercise},
-         {"state", toString(state)},
-         {"points", optionalJson(points)},
-         {"possible", optionalJson(possible)},
-         {"waiting",
-          classroom::isHeldBack(task, out) ? optionalJson(classroom::pointsNow(task, out)) : Json()}});
+  for (std::size_t k = 0; k < run.tasks.size(); ++k) {
+    const StoredResult& stored = run.stored[k];
+    const bool isDone = stored.state == TaskState::kDone;
+    isComplete = isComplete && isDone;
+    list.push_back({{"task", k + 1},
+                    {"student", run.tasks[k].student},
+                    {"exercise", run.tasks[k].exercise},
+                    {"state", toString(stored.state)},
+                    {"points", isDone ? Json(stored.result->score) : Json()},
+                    {"possible", isDone ? Json(stored.result->maxScore) : Json()},
+                    {"waiting", stored.waiting ? Json(*stored.waiting) : Json()}});
   }
-  return {{"tasks", list}, {"complete", isComplete}, {"table", (out / "grades.csv").string()}};
+  return {{"tasks", list}, {"complete", isComplete}, {"table", (run.out / "grades.csv").string()}};
 }
 
 }  // namespace
 
-std::string collectJson(const std::vector<Task>& tasks, const std::filesystem::path& out) {
-  return dump(statesJson(tasks, out));
-}
+std::string collectJson(const ClassRun& run) { return dump(statesJson(run)); }
 
-std::string gradingJson(const std::vector<Task>& tasks, const std::filesystem::path& out,
-                        const GradingSummary& summary) {
-  Json json = statesJson(tasks, out);
+std::string gradingJson(const ClassRun& run, const GradingSummary& summary) {
+  Json json = statesJson(run);
   json["level"] = summary.level;
   json["graded"] = summary.graded;
-  json["kept"] = static_cast<int>(tasks.size()) - summary.graded;
+  json["kept"] = static_cast<int>(run.tasks.size()) - summary.graded;
   json["not_taken"] = summary.rejected;
   json["blocked"] = summary.blocked;
   return dump(json);
@@ -98,12 +87,46 @@ void tell(const std::string& what, const std::vector<int>& numbers, const std::v
   if (numbers.size() > kMostNamed) note(fmt::format("  and {} more", numbers.size() - kMostNamed));
 }
 
-// Says of each refused result which file, what was found and what was wanted.
-void tellRefused(const std::vector<int>& numbers, const std::vector<Task>& tasks,
-                 const std::filesystem::path& out) {
-  for (const int number : numbers)
-    note(wrap(escapeForTerminal(classroom::whyRefused(tasks[static_cast<std::size_t>(number) - 1], out)), 2,
-              0));
+std::vector<int> numbersOf(const ClassRun& run, TaskState state) {
+  std::vector<int> numbers;
+  for (std::size_t k = 0; k < run.stored.size(); ++k)
+    if (run.stored[k].state == state) numbers.push_back(static_cast<int>(k) + 1);
+  return numbers;
+}
+
+std::vector<std::string> rowOf(const Task& task, const grading::GradeResult& result,
+                               const classroom::LatePolicy& policy) {
+  const auto rule = policy.find(task.exercise);
+  const classroom::Lateness late =
+      rule == policy.end()
+          ? classroom::Lateness{}
+          : classroom::computeLateness(rule->second, task.student, task.submitted, result.score);
+  return {task.student,
+          task.exercise,
+          fmt::format("{}", result.score),
+          fmt::format("{}", result.maxScore),
+          std::string(toString(result.outcome)),
+          fmt::format("{}", late.days),
+          reports::hundredthsText(late.penalty),
+          reports::hundredthsText(std::int64_t{100} * result.score - late.penalty)};
+}
+
+// One line per task, in their order. A task without a valid result has no points.
+std::string plainTable(const ClassRun& run, const classroom::LatePolicy& policy) {
+  std::string csv = classroom::csvLine({"student", "exercise", "points", "possible", "outcome", "late",
+                                        "penalty", "final", "submitted", "time_from"});
+  for (std::size_t k = 0; k < run.tasks.size(); ++k) {
+    const Task& task = run.tasks[k];
+    const TaskState state = run.stored[k].state;
+    const std::string outcome = state == TaskState::kFailed
+                                    ? std::string(grading::toString(grading::Outcome::kGraderError))
+                                    : toString(state);
+    std::vector<std::string> row = {task.student, task.exercise, "", "", outcome, "", "", ""};
+    if (state == TaskState::kDone) row = rowOf(task, *run.stored[k].result, policy);
+    row.insert(row.end(), {instantText(task.submitted), task.timeFrom});
+    csv += classroom::csvLine(row);
+  }
+  return csv;
 }
 
 // An incomplete file left by an earlier run does not count, as its text differs.
@@ -114,37 +137,35 @@ bool holds(const std::filesystem::path& file, const std::string& text) {
 }  // namespace
 
 ExitCode collectResults(const Project& project, const CollectOptions& options) {
-  const std::vector<Task> tasks = tasksIn(options.out, options.manifest);
-  const classroom::GradebookSource source = readGradebookSource(project, options.files, tasks, options.out);
+  const ClassRun run = runIn(options.out, options.manifest);
+  const classroom::GradebookSource source = readGradebookSource(project, options.files, run);
   const ExitCode roster = tellRoster(source.course);
-  const classroom::Gradebook book = classroom::makeGradebook(source);
-  writeReports(tasks, options.out, parseReportFormats(options.reports), book);
-  const bool complete = writeGrades(tasks, options.out, readDeadlines(project, options.files.deadlines),
+  const classroom::Gradebook book = classroom::makeGradebook(run, source);
+  writeReports(run, parseReportFormats(options.reports), book);
+  const bool complete = writeGrades(run, readDeadlines(project, options.files.deadlines),
                                     options.files.hasBook() ? &book : nullptr, options.csv);
-  const int held = tellHeldBack(tasks, options.out);
-  if (options.json) say(collectJson(tasks, options.out));
-  note(fmt::format("{} tasks. Table: {}", tasks.size(), shown(options.out / "grades.csv")));
+  const int held = tellHeldBack(run);
+  if (options.json) say(collectJson(run));
+  note(fmt::format("{} tasks. Table: {}", run.tasks.size(), shown(options.out / "grades.csv")));
   if (!complete) return ExitCode::kGraderFault;
   return held > 0 ? ExitCode::kBelow : roster;
 }
 
-void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& out,
-                  const std::vector<reports::ReportFormat>& reports, const classroom::Gradebook& book) {
+void writeReports(const ClassRun& run, const std::vector<reports::ReportFormat>& reports,
+                  const classroom::Gradebook& book) {
   int written = 0, kept = 0;
-  for (std::size_t k = 0; k < tasks.size(); ++k) {
-    const Task& task = tasks[k];
-    const auto judgement = taskJudgement(book, tasks, k);
-    const std::filesystem::path folder = classroom::resultFolder(out, task);
-    const classroom::TaskState state = classroom::taskState(task, out);
-    if (state != classroom::TaskState::kDone && state != classroom::TaskState::kFailed) {
+  for (std::size_t k = 0; k < run.tasks.size(); ++k) {
+    const auto judgement = taskJudgement(book, run.tasks, k);
+    const std::filesystem::path folder = classroom::resultFolder(run.out, run.tasks[k]);
+    const StoredResult& stored = run.stored[k];
+    if (stored.state != TaskState::kDone && stored.state != TaskState::kFailed) {
       classroom::removeReports(folder);
       continue;
     }
     for (const reports::ReportFormat& format : reports::reportFormats()) {
       const std::filesystem::path file = folder / format.file;
       if (!contains(reports, format) && !std::filesystem::exists(file)) continue;
-      const std::string text =
-          format.write(grading::loadResult(folder / "results.json"), judgement ? &*judgement : nullptr);
+      const std::string text = format.write(*stored.result, judgement ? &*judgement : nullptr);
       const bool isThere = holds(file, text);
       if (!isThere) replaceTextFile(file, text, "the report");
       if (!isThere) ++written;
@@ -161,38 +182,41 @@ classroom::LatePolicy readDeadlines(const Project& project, const std::filesyste
   return classroom::readLatePolicy(file, names);
 }
 
-bool writeGrades(const std::vector<Task>& tasks, const std::filesystem::path& out,
-                 const classroom::LatePolicy& policy, const classroom::Gradebook* book, bool print) {
+bool writeGrades(const ClassRun& run, const classroom::LatePolicy& policy, const classroom::Gradebook* book,
+                 bool print) {
   std::vector<std::string> students;
-  for (const Task& task : tasks) students.push_back(task.student);
-  if (book != nullptr) writeBook(*book, out, print);
+  for (const Task& task : run.tasks) students.push_back(task.student);
+  if (book != nullptr) writeBook(*book, run.out, print);
   for (const std::string& sentence : classroom::unknownExtensions(policy, students))
     note(wrap(escapeForTerminal(sentence), 2, 0));
-  const classroom::Collected found = classroom::collect(tasks, out, policy);
   if (book == nullptr) {
-    replaceTextFile(out / "grades.csv", found.csv, "the table of grades");
-    for (const char* other : {kTotals, kStrangers}) std::filesystem::remove(out / other);
-    if (print) std::fputs(found.csv.c_str(), stdout);
+    const std::string table = plainTable(run, policy);
+    replaceTextFile(run.out / "grades.csv", table, "the table of grades");
+    for (const char* other : {kTotals, kStrangers}) std::filesystem::remove(run.out / other);
+    if (print) std::fputs(table.c_str(), stdout);
   }
-  tell("no result", found.missing, tasks);
-  tell("a result for other inputs", found.stale, tasks);
-  tell("a result that was changed after the grading", found.refused, tasks);
-  tellRefused(found.refused, tasks, out);
-  tell("the grader failed", found.failed, tasks);
-  std::vector<int> again = found.missing;
-  again.insert(again.end(), found.stale.begin(), found.stale.end());
-  again.insert(again.end(), found.refused.begin(), found.refused.end());
-  again.insert(again.end(), found.failed.begin(), found.failed.end());
+  std::vector<int> again;
+  const auto tellAll = [&](TaskState state, const char* what) {
+    const std::vector<int> numbers = numbersOf(run, state);
+    tell(what, numbers, run.tasks);
+    again.insert(again.end(), numbers.begin(), numbers.end());
+  };
+  tellAll(TaskState::kMissing, "no result");
+  tellAll(TaskState::kStale, "a result for other inputs");
+  tellAll(TaskState::kRefused, "a result that was changed after the grading");
+  for (const StoredResult& one : run.stored)
+    if (one.state == TaskState::kRefused) note(wrap(escapeForTerminal(one.why), 2, 0));
+  tellAll(TaskState::kFailed, "the grader failed");
   if (again.empty()) return true;
   note(fmt::format("To repeat: {}", classroom::numberRanges(again)));
   return false;
 }
 
-int tellHeldBack(const std::vector<Task>& tasks, const std::filesystem::path& out) {
+int tellHeldBack(const ClassRun& run) {
   std::vector<int> held;
-  for (std::size_t k = 0; k < tasks.size(); ++k)
-    if (classroom::isHeldBack(tasks[k], out)) held.push_back(static_cast<int>(k) + 1);
-  tell("fewer points than before wait for `rex grade --accept`", held, tasks);
+  for (std::size_t k = 0; k < run.stored.size(); ++k)
+    if (run.stored[k].waiting) held.push_back(static_cast<int>(k) + 1);
+  tell("fewer points than before wait for `rex grade --accept`", held, run.tasks);
   return static_cast<int>(held.size());
 }
 
@@ -206,26 +230,23 @@ std::string keyOf(const Task& task) {
 
 }  // namespace
 
-Regrading::Regrading(const std::vector<Task>& tasks, const std::filesystem::path& out,
-                     const std::function<bool(const Task&)>& isOpen, bool accept)
-    : tasks_(tasks), out_(out) {
+Regrading::Regrading(ClassRun& run, const std::function<bool(std::size_t)>& isOpen, bool accept) : run_(run) {
   readNotes();
-  for (const Task& task : tasks) {
-    const auto noted = noted_.find(keyOf(task));
-    const bool isOld = noted != noted_.end(), isHeld = classroom::isHeldBack(task, out_),
-               isAgain = isOld || isOpen(task);
-    before_.push_back(isOld               ? std::optional<int>(noted->second)
-                      : isAgain || isHeld ? classroom::pointsBefore(task, out_)
-                                          : std::nullopt);
+  for (std::size_t k = 0; k < run.tasks.size(); ++k) {
+    const StoredResult& stored = run.stored[k];
+    const auto noted = noted_.find(keyOf(run.tasks[k]));
+    const bool isOld = noted != noted_.end(), isAgain = isOld || isOpen(k);
+    before_.push_back(isOld                       ? std::optional<int>(noted->second)
+                      : isAgain || stored.waiting ? stored.before
+                                                  : std::nullopt);
     isNew_ = isNew_ || (before_.back() && (isAgain || accept));
   }
   writeNotes();
-  if (!accept) return;
-  for (const Task& task : tasks) classroom::acceptRegrading(task, out_);
+  if (accept) classroom::acceptRegradings(run);
 }
 
 void Regrading::readNotes() {
-  const std::filesystem::path file = out_ / kNotesOfRegrading;
+  const std::filesystem::path file = run_.out / kNotesOfRegrading;
   if (!std::filesystem::exists(file)) return;
   const std::string text = readTextFile(file);
   int number = 0;
@@ -243,20 +264,20 @@ void Regrading::readNotes() {
 
 void Regrading::writeNotes() const {
   std::string text;
-  for (std::size_t k = 0; k < tasks_.size(); ++k)
-    if (before_[k]) text += fmt::format("{}\t{}\n", keyOf(tasks_[k]), *before_[k]);
-  if (!text.empty()) replaceTextFile(out_ / kNotesOfRegrading, text, "the notes of a regrading");
+  for (std::size_t k = 0; k < run_.tasks.size(); ++k)
+    if (before_[k]) text += fmt::format("{}\t{}\n", keyOf(run_.tasks[k]), *before_[k]);
+  if (!text.empty()) replaceTextFile(run_.out / kNotesOfRegrading, text, "the notes of a regrading");
 }
 
 void Regrading::tell() const {
   constexpr int kMostTold = 20;
   std::string table = classroom::csvLine({"student", "exercise", "before", "after", "counts"});
   int changed = 0, same = 0;
-  for (std::size_t k = 0; k < tasks_.size(); ++k) {
-    const Task& task = tasks_[k];
-    const std::optional<int> after = classroom::pointsNow(task, out_);
+  for (std::size_t k = 0; k < run_.tasks.size(); ++k) {
+    const Task& task = run_.tasks[k];
+    const std::optional<int> after = run_.stored[k].now();
     if (!before_[k] || !after) continue;
-    const bool isHeld = classroom::isHeldBack(task, out_);
+    const bool isHeld = run_.stored[k].waiting.has_value();
     table += classroom::csvLine({task.student, task.exercise, fmt::format("{}", *before_[k]),
                                  fmt::format("{}", *after), isHeld ? "before" : "after"});
     if (*before_[k] == *after) {
@@ -269,11 +290,11 @@ void Regrading::tell() const {
     }
   }
   if (isNew_ && changed + same > 0) {
-    replaceTextFile(out_ / kRegradedFile, table, "the table of regradings");
+    replaceTextFile(run_.out / kRegradedFile, table, "the table of regradings");
     note(fmt::format("Graded again: {} with other points, {} with the same. Table: {}", changed, same,
-                     shown(out_ / kRegradedFile)));
+                     shown(run_.out / kRegradedFile)));
   }
-  std::filesystem::remove(out_ / kNotesOfRegrading);
+  std::filesystem::remove(run_.out / kNotesOfRegrading);
 }
 
 }  // namespace rex::cli

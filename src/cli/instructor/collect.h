@@ -9,7 +9,7 @@
 
 #include "classroom/gradebook.h"
 #include "classroom/late_policy.h"
-#include "classroom/task_list.h"
+#include "classroom/stored_result.h"
 #include "cli/instructor/class_grades.h"
 #include "cli/project.h"
 #include "reports/report.h"
@@ -25,11 +25,9 @@ struct GradingSummary {
 };
 
 /// The states of all tasks as JSON, "collect" of share/grading/commands.schema.json.
-[[nodiscard]] std::string collectJson(const std::vector<classroom::Task>& tasks,
-                                      const std::filesystem::path& out);
+[[nodiscard]] std::string collectJson(const classroom::ClassRun& run);
 /// The same with the summary: "grade".
-[[nodiscard]] std::string gradingJson(const std::vector<classroom::Task>& tasks,
-                                      const std::filesystem::path& out, const GradingSummary& summary);
+[[nodiscard]] std::string gradingJson(const classroom::ClassRun& run, const GradingSummary& summary);
 
 /// The deadlines in that file; none without a file. Throws like classroom::readLatePolicy().
 [[nodiscard]] classroom::LatePolicy readDeadlines(const Project& project, const std::filesystem::path& file);
@@ -65,27 +63,24 @@ struct CollectOptions {
 
 /// Writes missing reports next to the result of each task that has one, renews outdated ones in any format,
 /// and removes those that no longer have a result.
-void writeReports(const std::vector<classroom::Task>& tasks, const std::filesystem::path& out,
-                  const std::vector<reports::ReportFormat>& reports, const classroom::Gradebook& book);
+void writeReports(const classroom::ClassRun& run, const std::vector<reports::ReportFormat>& reports,
+                  const classroom::Gradebook& book);
 
 /// Writes OUT/grades.csv, with the other tables of a grade book if there is one, and prints it on request.
-/// Reports tasks without a valid result, and returns false
-/// if there are any.
-[[nodiscard]] bool writeGrades(const std::vector<classroom::Task>& tasks, const std::filesystem::path& out,
-                               const classroom::LatePolicy& policy, const classroom::Gradebook* book,
-                               bool print);
+/// Reports tasks without a valid result, and returns false if there are any.
+[[nodiscard]] bool writeGrades(const classroom::ClassRun& run, const classroom::LatePolicy& policy,
+                               const classroom::Gradebook* book, bool print);
 
 /// Says which results with fewer points wait to be accepted; their number.
-int tellHeldBack(const std::vector<classroom::Task>& tasks, const std::filesystem::path& out);
+int tellHeldBack(const classroom::ClassRun& run);
 
 /// The points of files before and after they are graded again, by another grader or with other random cases.
 class Regrading {
  public:
-  /// Notes the points of the tasks that will be graded again (`isOpen`) or whose new result waits. They are
-  /// kept in the folder of results until tell(), so that an interrupted regrading goes on with them. `accept`
-  /// takes results that wait. Throws Error if the notes of an interrupted run cannot be read.
-  Regrading(const std::vector<classroom::Task>& tasks, const std::filesystem::path& out,
-            const std::function<bool(const classroom::Task&)>& isOpen, bool accept);
+  /// Notes the points of the tasks that will be graded again (`isOpen`, by index) or whose new result waits.
+  /// They are kept in the folder of results until tell(), so that an interrupted regrading goes on with them.
+  /// `accept` takes results that wait. Throws Error if the notes of an interrupted run cannot be read.
+  Regrading(classroom::ClassRun& run, const std::function<bool(std::size_t)>& isOpen, bool accept);
 
   /// Says which points have changed. Writes regraded.csv if anything was graded again or accepted in this
   /// run; the table of an earlier one stays.
@@ -95,8 +90,7 @@ class Regrading {
   void readNotes();
   void writeNotes() const;
 
-  const std::vector<classroom::Task>& tasks_;
-  std::filesystem::path out_;
+  const classroom::ClassRun& run_;
   std::vector<std::optional<int>> before_{};  ///< of each task; empty: it was not graded before
   std::map<std::string, int> noted_{};        ///< of an interrupted run: by student, exercise and text
   bool isNew_ = false;                        ///< something is graded again, or accepted

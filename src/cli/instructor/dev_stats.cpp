@@ -271,7 +271,8 @@ ExitCode devStats(const Project& project, const StatsOptions& options) {
   classroom::ClassResults read = classroom::readClassResults(options.results);
   if (!options.course.empty())
     read = classroom::resultsByPerson(
-        read, readGradebook(project, files, tasksIn(options.results), options.results));
+        read,
+        readGradebook(project, files, classroom::runOf(tasksIn(options.results), options.results, read)));
   for (const std::string& complaint : read.complaints) note(wrap(escapeForTerminal(complaint), 2, 0));
   if (read.results.empty())
     throw UsageError({.what = "nothing to evaluate",

@@ -40,7 +40,6 @@ struct ExportOptions {
 
 /// What all exports are made of.
 struct Export {
-  std::vector<classroom::Task> tasks{};
   classroom::Course course{};
   classroom::Gradebook book{};
   classroom::ImportTable imported{};
@@ -48,14 +47,11 @@ struct Export {
 };
 
 Export read(const Project& project, const ExportOptions& options) {
-  Export all{.tasks = tasksIn(options.results)};
+  const classroom::ClassRun run = runIn(options.results);
   const std::string only = options.exercise.empty() ? "" : project.exercise(options.exercise).name;
-  const classroom::GradebookSource source =
-      readGradebookSource(project, options.files, all.tasks, options.results, only);
-  all.course = source.course;
-  all.roster = tellRoster(all.course);
-  all.book = classroom::makeGradebook(source);
-  all.imported = classroom::importTableIn(options.results);
+  const classroom::GradebookSource source = readGradebookSource(project, options.files, run, only);
+  Export all{.course = source.course, .imported = source.imported, .roster = tellRoster(source.course)};
+  all.book = classroom::makeGradebook(run, source);
   if (all.book.rows.empty())
     throw UsageError({.what = "nothing to export",
                       .where = {options.results.string()},

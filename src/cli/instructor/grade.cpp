@@ -196,16 +196,16 @@ std::set<std::string> blockedOf(const classroom::SubmittedFiles& handedIn, Grade
   return blocked;
 }
 
-std::vector<Task> tasksOf(const classroom::SubmittedFiles& handedIn, const GradeManyOptions& options,
-                          sandbox::Level level, const std::vector<ExerciseInfo>& exercises,
-                          const std::set<std::string>& blocked, Graders& graders) {
+// The tasks, each with what is stored for it.
+classroom::ClassRun readRun(const classroom::SubmittedFiles& handedIn, const GradeManyOptions& options,
+                            sandbox::Level level, const std::vector<ExerciseInfo>& exercises,
+                            const std::set<std::string>& blocked, Graders& graders) {
   std::optional<classroom::SubmissionTimes> times;
   if (!options.submitted.empty()) times.emplace(options.submitted, exercises);
   const classroom::ImportTable imports = classroom::importTableIn(options.folder);
-  const std::string secretId = classroom::secretFileId(options.secret);
+  classroom::ClassRun run{.out = options.out, .secret = classroom::classSecret(options.secret)};
   if (const std::string warning = grading::openSecretWarning(options.secret); !warning.empty())
     note(wrap(escapeForTerminal(warning), 2, 0));
-  std::vector<Task> tasks;
   for (const classroom::SubmittedFile& file : handedIn.files) {
     if (blocked.contains(file.exercise)) continue;
     Task task{.student = file.student, .exercise = file.exercise};
@@ -214,7 +214,7 @@ std::vector<Task> tasksOf(const classroom::SubmittedFiles& handedIn, const Grade
     task.graderSha256 = graders.of(file.exercise).sha256;
     task.level = level;
     task.seed = options.seed;
-    task.secretId = secretId;
+    task.secretId = grading::courseSecretId(run.secret);
     const auto told = times ? times->of(file.student, file.exercise) : std::nullopt;
     const classroom::ImportedExercise* imported = imports.find(file.student, file.exercise);
     task.submitted = told.value_or(file.submitted);
@@ -224,13 +224,14 @@ std::vector<Task> tasksOf(const classroom::SubmittedFiles& handedIn, const Grade
       task.timeFrom = imported->timeFrom;
     }
     // Others keep what they were graded with, and so does who was graded alone.
-    const auto before = classroom::gradedWith(task, options.out);
+    classroom::StoredFiles files = classroom::readStoredFiles(classroom::resultFolder(options.out, task));
+    const auto before = files.with();
     const bool isChosen = options.student.empty() || options.chosen.contains({task.student, task.exercise});
     if (before && (!isChosen || (before->alone && options.student.empty() && !options.regrade)))
       task.level = before->level, task.seed = before->seed, task.secretId = before->secretId;
-    tasks.push_back(std::move(task));
+    run.add(std::move(task), std::move(files));
   }
-  return tasks;
+  return run;
 }
 
 // The files that count for the student of the option, also those that a partner handed in.
@@ -264,7 +265,7 @@ void chooseStudent(const classroom::SubmittedFiles& handedIn, const classroom::C
 }
 
 // Another seed or another secret gives other questions, so that points of last week could change.
-void requireSameSettings(const std::vector<Task>& tasks, const GradeManyOptions& options) {
+void requireSameSettings(const classroom::ClassRun& run, const GradeManyOptions& options) {
   if (options.regrade || !options.student.empty()) return;
   std::map<std::string, int> changes;
   int others = 0;
@@ -277,8 +278,9 @@ void requireSameSettings(const std::vector<Task>& tasks, const GradeManyOptions&
     return seed ? fmt::format("{}", *seed) : "none";
   };
   const auto secretOf = [](const std::string& id) { return id.empty() ? "none" : id; };
-  for (const Task& task : tasks)
-    if (const auto before = classroom::gradedWith(task, options.out)) {
+  for (std::size_t k = 0; k < run.tasks.size(); ++k)
+    if (const auto& before = run.stored[k].with) {
+      const Task& task = run.tasks[k];
       const bool level = compare("sandbox level", fmt::format("{}", numberOf(before->level)),
                                  fmt::format("{}", numberOf(task.level))),
                  seed = compare("seed", seedOf(before->seed), seedOf(task.seed)),
@@ -296,14 +298,13 @@ void requireSameSettings(const std::vector<Task>& tasks, const GradeManyOptions&
 }
 
 // A report that was asked for once is kept up to date.
-std::vector<reports::ReportFormat> formatsOf(const std::string& asked, const std::vector<Task>& tasks,
-                                             const fs::path& out) {
+std::vector<reports::ReportFormat> formatsOf(const std::string& asked, const classroom::ClassRun& run) {
   std::vector<reports::ReportFormat> formats = parseReportFormats(asked);
   for (const reports::ReportFormat& format : reports::reportFormats()) {
     const bool isAsked =
         std::any_of(formats.begin(), formats.end(), [&](const auto& one) { return one.file == format.file; });
-    if (!isAsked && std::any_of(tasks.begin(), tasks.end(), [&](const Task& task) {
-          return fs::exists(classroom::resultFolder(out, task) / format.file);
+    if (!isAsked && std::any_of(run.tasks.begin(), run.tasks.end(), [&](const Task& task) {
+          return fs::exists(classroom::resultFolder(run.out, task) / format.file);
         }))
       formats.push_back(format);
   }
@@ -311,10 +312,11 @@ std::vector<reports::ReportFormat> formatsOf(const std::string& asked, const std
 }
 
 // Grades one task in its own process, so that a failure affects this task alone.
-int gradeApart(const Task& task, const Graders::Grader& grader, const classroom::TaskOptions& options) {
+int gradeApart(const Task& task, const classroom::StoredResult& stored, const Graders::Grader& grader,
+               const classroom::TaskOptions& options) {
   try {
     const grading::GradeResult result =
-        classroom::gradeTask(task, grader.toolchain, grader.exercise, options);
+        classroom::gradeTask(task, stored, grader.toolchain, grader.exercise, options);
     return result.outcome == grading::Outcome::kGraderError ? 1 : 0;
   } catch (const std::exception& error) {
     note(wrap(escapeForTerminal(fmt::format("{} {}: {}", task.student, task.exercise, error.what())), 2, 0));
@@ -322,35 +324,27 @@ int gradeApart(const Task& task, const Graders::Grader& grader, const classroom:
   }
 }
 
-bool isDone(const Task& task, const GradeManyOptions& options) {
-  return classroom::taskState(task, options.out, options.secret) == classroom::TaskState::kDone;
-}
-
 // With settings of their own, which last until somebody asks to regrade the class.
-bool isAlone(const Task& task, const GradeManyOptions& options) {
-  const auto before = classroom::gradedWith(task, options.out);
-  return !options.student.empty() || (!options.regrade && before && before->alone);
+bool isAlone(const classroom::StoredResult& stored, const GradeManyOptions& options) {
+  return !options.student.empty() || (!options.regrade && stored.with && stored.with->alone);
 }
 
-bool isOpen(const Task& task, const GradeManyOptions& options) {
+bool isOpen(const Task& task, const classroom::StoredResult& stored, const GradeManyOptions& options) {
   if (!options.student.empty() && !options.chosen.contains({task.student, task.exercise})) return false;
-  if (options.regrade || !isDone(task, options)) return true;
-  return options.evidence && !classroom::hasEvidence(task, options.out);
+  return options.regrade || !stored.isDone() || (options.evidence && !stored.hasEvidence);
 }
 
-void tellRefused(const std::vector<Task>& tasks, const fs::path& out, const fs::path& secret) {
-  for (const Task& task : tasks)
-    if (classroom::taskState(task, out, secret) == classroom::TaskState::kRefused)
-      note(wrap(escapeForTerminal(classroom::whyRefused(task, out, secret)) + "; it is graded again", 2, 0));
+void tellRefused(const classroom::ClassRun& run) {
+  using classroom::TaskState;
+  for (const classroom::StoredResult& one : run.stored)
+    if ((one.state == TaskState::kDone || one.state == TaskState::kRefused) && !one.why.empty())
+      note(wrap(escapeForTerminal(one.why) + "; it is graded again", 2, 0));
 }
 
-// Grades the tasks without a valid result; returns their number. Nobody's hidden checks run beside visible
-// ones: what a program learns in a hidden check, it may find a way to tell another.
-int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
-              const sandbox::Sandbox& sandbox, Graders& graders) {
-  std::vector<const Task*> open;
-  for (const Task& task : tasks)
-    if (isOpen(task, options)) open.push_back(&task);
+// Grades those tasks, and reads what is stored for them then. Nobody's hidden checks run beside visible ones:
+// what a program learns in a hidden check, it may find a way to tell another.
+void gradeOpen(const std::vector<std::size_t>& open, classroom::ClassRun& run,
+               const GradeManyOptions& options, const sandbox::Sandbox& sandbox, Graders& graders) {
   const int count = static_cast<int>(open.size()),
             jobs = options.jobs > 0 ? options.jobs
                                     : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -358,33 +352,34 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
   std::atomic<int> begun = 0, ended = 0;
   const ProgressLine line([&] {
     return fmt::format("visible checks of {0}, hidden checks of {1} of {2} graded, {3} kept", begun.load(),
-                       ended.load(), count, tasks.size() - open.size());
+                       ended.load(), count, run.tasks.size() - open.size());
   });
   const auto gradeAll = [&](grading::Pass pass) {
     const bool isFirst = pass == grading::Pass::kVisible;
     const auto gradeOne = [&](int k) {
-      const Task& task = *open[static_cast<std::size_t>(k)];
-      if (!isFirst && !classroom::awaitsSecondPass(task, options.out, options.secret)) return 0;
-      return gradeApart(task, graders.of(task.exercise),
+      const Task& task = run.tasks[open[static_cast<std::size_t>(k)]];
+      const classroom::StoredResult& stored = run.stored[open[static_cast<std::size_t>(k)]];
+      if (!isFirst && !classroom::readFirstPass(task, run.out, run.secret)) return 0;
+      return gradeApart(task, stored, graders.of(task.exercise),
                         {.out = options.out,
                          .workFolder = work.path() / fmt::format("{}", k),
                          .launcher = sandbox.launcher,
                          .secret = options.secret,
                          .evidence = options.evidence,
-                         .alone = isAlone(task, options),
+                         .alone = isAlone(stored, options),
                          .workers = options.workers,
                          .accept = options.acceptFewer,
-                         .recompile = isFirst && options.regrade && isDone(task, options),
+                         .recompile = isFirst && options.regrade && stored.isDone(),
                          .pass = pass});
     };
     const auto end = [&](int k, int code) {
-      const Task& task = *open[static_cast<std::size_t>(k)];
+      const Task& task = run.tasks[open[static_cast<std::size_t>(k)]];
       if (code < 0)
         note(wrap(escapeForTerminal(fmt::format("{} {}: the grading was ended by signal {}: grade it again",
                                                 task.student, task.exercise, -code)),
                   2, 0));
       std::error_code ignored;
-      if (!classroom::awaitsSecondPass(task, options.out, options.secret))
+      if (!classroom::readFirstPass(task, run.out, run.secret))
         fs::remove_all(work.path() / fmt::format("{}", k), ignored);
       ++(isFirst ? begun : ended);
     };
@@ -392,7 +387,7 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
   };
   gradeAll(grading::Pass::kVisible);
   gradeAll(grading::Pass::kHidden);
-  return count;
+  for (const std::size_t k : open) run.readAgain(k);
 }
 
 void tellTimes(const std::vector<Task>& tasks, const GradeManyOptions& options) {
@@ -433,23 +428,6 @@ void keepWhatCollectNeeds(const classroom::SubmittedFiles& handedIn, const Grade
     fs::remove(options.out / classroom::kImportTable);
 }
 
-// Of what was handed in and of the roster.
-std::vector<std::string> notTaken(const classroom::SubmittedFiles& handedIn,
-                                  const classroom::Course& course) {
-  std::vector<std::string> all = handedIn.complaints;
-  for (const classroom::RosterFault& fault : course.faults) all.push_back(fault.why);
-  return all;
-}
-
-ExitCode sayTasks(const std::vector<Task>& tasks, const std::vector<std::string>& notTaken,
-                  const fs::path& manifest, const GradeManyOptions& options, ExitCode taken) {
-  if (options.json)
-    say(dump(Json{{"tasks", tasks.size()}, {"manifest", manifest.string()}, {"not_taken", notTaken}}));
-  else
-    say(fmt::format("{} tasks: {}", tasks.size(), shown(manifest)));
-  return taken;
-}
-
 void takeSettings(const classroom::GradingSettings& settings, GradeManyOptions& options) {
   if (options.secret.empty()) options.secret = settings.secret;
   if (!options.seed) options.seed = settings.seed;
@@ -458,8 +436,103 @@ void takeSettings(const classroom::GradingSettings& settings, GradeManyOptions& 
   options.evidence = options.evidence || settings.evidence;
 }
 
-// Grades the submissions of many students. kFull whatever the grades are; kNotGradable if a submission could
-// not be taken, kGraderFault if something must be graded again.
+// What a class handed in, and what is stored for it.
+struct ClassWork {
+  classroom::ClassRun run{};
+  std::string only{};                   // exercise; empty: all
+  int rejected = 0;                     // submissions that could not be taken
+  std::vector<std::string> notTaken{};  // of what was handed in and of the roster
+  std::set<std::string> blocked{};      // exercises whose grader does not build
+  ExitCode taken = ExitCode::kFull;
+};
+
+// Also writes the list of tasks, and what `rex grade --collect` needs.
+ClassWork readClassWork(const Project& project, const classroom::Course& course, sandbox::Level level,
+                        Graders& graders, const fs::path& manifest, GradeManyOptions& options) {
+  const ExitCode roster = tellRoster(course);
+  const std::vector<ExerciseInfo> exercises = project.exercises();
+  classroom::SubmittedFiles handedIn = classroom::readSubmittedFiles(options.folder, exercises, options.only);
+  ClassWork work{.only = options.only.empty() ? "" : project.exercise(options.only).name};
+  addRejected(options.folder, work.only, handedIn);
+  tell(handedIn);
+  if (handedIn.files.empty()) adviseImport(options.folder, exercises);
+  chooseStudent(handedIn, course, options);
+  makeFolder(options.out);
+  work.blocked = blockedOf(handedIn, graders);
+  work.run = readRun(handedIn, options, level, exercises, work.blocked, graders);
+  requireSameSettings(work.run, options);
+  if (options.manifest.empty()) tellWhatTablesLeaveOut(manifest, work.only);
+  replaceTextFile(manifest, classroom::toManifest(work.run.tasks), "the list of tasks");
+  keepWhatCollectNeeds(handedIn, options);
+  work.rejected = static_cast<int>(handedIn.complaints.size());
+  work.taken = !work.blocked.empty() ? ExitCode::kGraderFault
+               : work.rejected == 0  ? roster
+                                     : ExitCode::kNotGradable;
+  work.notTaken = std::move(handedIn.complaints);
+  for (const classroom::RosterFault& fault : course.faults) work.notTaken.push_back(fault.why);
+  return work;
+}
+
+ExitCode sayTasks(const ClassWork& work, const fs::path& manifest, const GradeManyOptions& options) {
+  if (options.json)
+    say(dump(Json{
+        {"tasks", work.run.tasks.size()}, {"manifest", manifest.string()}, {"not_taken", work.notTaken}}));
+  else
+    say(fmt::format("{} tasks: {}", work.run.tasks.size(), shown(manifest)));
+  return work.taken;
+}
+
+// Grades the submissions of many students: reads, decides, grades, writes. kFull whatever the grades are;
+// kNotGradable if a submission could not be taken, kGraderFault if something must be graded again.
+ExitCode gradeClass(const Project& project, const classroom::Course& course, GradeManyOptions options) {
+  requireFolders(options);
+  static_cast<void>(parseReportFormats(options.reports));  // refuses a misspelt one before it grades
+  const classroom::LatePolicy policy = readDeadlines(project, options.files.deadlines);
+  const auto sandbox = chooseForStrangers(project, options.level, options.accept);
+  if (!sandbox) return ExitCode::kWeakSandbox;
+
+  Graders graders(project);
+  const fs::path manifest = options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
+  ClassWork work = readClassWork(project, course, sandbox->level, graders, manifest, options);
+  classroom::ClassRun& run = work.run;
+  if (!options.manifest.empty()) return sayTasks(work, manifest, options);
+  // What could be wrong with roster, dates and adjustments is said before the first grading.
+  const classroom::GradebookSource source = readGradebookSource(project, options.files, run, work.only);
+  const std::vector<reports::ReportFormat> reports = formatsOf(options.reports, run);
+
+  removeLeftovers(options.out, 3);
+  tellRefused(run);
+  const auto isOpenHere = [&](std::size_t k) { return isOpen(run.tasks[k], run.stored[k], options); };
+  const Regrading regrading(run, isOpenHere, options.acceptFewer);
+  std::vector<std::size_t> open;
+  for (std::size_t k = 0; k < run.tasks.size(); ++k)
+    if (isOpenHere(k)) open.push_back(k);
+
+  gradeOpen(open, run, options, *sandbox, graders);
+
+  const int count = static_cast<int>(run.tasks.size()), graded = static_cast<int>(open.size());
+  regrading.tell();
+  tellTimes(run.tasks, options);
+  const classroom::Gradebook book = classroom::makeGradebook(run, source);
+  writeReports(run, reports, book);
+  const bool complete = writeGrades(run, policy, options.files.hasBook() ? &book : nullptr, options.csv);
+  if (!options.similar.empty())
+    writeSimilar(project, course, run.tasks, options.out, options.similar, options.similarPercent);
+  const int held = tellHeldBack(run);
+  if (options.json)
+    say(gradingJson(run, {.level = numberOf(sandbox->level),
+                          .graded = graded,
+                          .rejected = work.notTaken,
+                          .blocked = {work.blocked.begin(), work.blocked.end()}}));
+  note(
+      fmt::format("{} submission{} at sandbox level {}: {} graded, {} kept, {} could not be taken. Table: {}",
+                  count, count == 1 ? "" : "s", numberOf(sandbox->level), graded, count - graded,
+                  work.rejected, shown(options.out / "grades.csv")));
+  if (!complete || work.taken == ExitCode::kGraderFault) return ExitCode::kGraderFault;
+  return held > 0 ? ExitCode::kBelow : work.taken;
+}
+
+// What the options ask for: to grade, or one of the things that need only the folder of results.
 ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   const classroom::Course course = readClassCourse(project, options.files);
   takeSettings(course.settings, options);
@@ -489,65 +562,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
                                     .csv = options.csv,
                                     .json = options.json,
                                     .reports = options.reports});
-  requireFolders(options);
-  static_cast<void>(parseReportFormats(options.reports));  // refuses a misspelt one before it grades
-  const classroom::LatePolicy policy = readDeadlines(project, options.files.deadlines);
-  const auto sandbox = chooseForStrangers(project, options.level, options.accept);
-  if (!sandbox) return ExitCode::kWeakSandbox;
-  const ExitCode roster = tellRoster(course);
-  const std::vector<ExerciseInfo> exercises = project.exercises();
-  classroom::SubmittedFiles handedIn = classroom::readSubmittedFiles(options.folder, exercises, options.only);
-  const std::string only = options.only.empty() ? "" : project.exercise(options.only).name;
-  addRejected(options.folder, only, handedIn);
-  tell(handedIn);
-  if (handedIn.files.empty()) adviseImport(options.folder, exercises);
-  chooseStudent(handedIn, course, options);
-  makeFolder(options.out);
-  Graders graders(project);
-  const std::set<std::string> blocked = blockedOf(handedIn, graders);
-  const std::vector<Task> tasks = tasksOf(handedIn, options, sandbox->level, exercises, blocked, graders);
-  requireSameSettings(tasks, options);
-  const fs::path manifest = options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
-  if (options.manifest.empty()) tellWhatTablesLeaveOut(manifest, only);
-  replaceTextFile(manifest, classroom::toManifest(tasks), "the list of tasks");
-  const ExitCode taken = !blocked.empty()              ? ExitCode::kGraderFault
-                         : handedIn.complaints.empty() ? roster
-                                                       : ExitCode::kNotGradable;
-  keepWhatCollectNeeds(handedIn, options);
-  if (!options.manifest.empty()) {
-    return sayTasks(tasks, notTaken(handedIn, course), manifest, options, taken);
-  }
-  // What could be wrong with roster, dates and adjustments is said before the first grading.
-  const classroom::GradebookSource source =
-      readGradebookSource(project, options.files, tasks, options.out, only);
-  const std::vector<reports::ReportFormat> reports = formatsOf(options.reports, tasks, options.out);
-  removeLeftovers(options.out, 3);
-  tellRefused(tasks, options.out, options.secret);
-  const Regrading regrading(
-      tasks, options.out, [&](const Task& task) { return isOpen(task, options); }, options.acceptFewer);
-  const int graded = gradeOpen(tasks, options, *sandbox, graders);
-  regrading.tell();
-  tellTimes(tasks, options);
-  const classroom::Gradebook book = classroom::makeGradebook(source);
-  writeReports(tasks, options.out, reports, book);
-  const bool complete =
-      writeGrades(tasks, options.out, policy, options.files.hasBook() ? &book : nullptr, options.csv);
-  if (!options.similar.empty())
-    writeSimilar(project, course, tasks, options.out, options.similar, options.similarPercent);
-  const int held = tellHeldBack(tasks, options.out);
-  if (options.json)
-    say(gradingJson(tasks, options.out,
-                    GradingSummary{.level = numberOf(sandbox->level),
-                                   .graded = graded,
-                                   .rejected = notTaken(handedIn, course),
-                                   .blocked = {blocked.begin(), blocked.end()}}));
-  note(
-      fmt::format("{} submission{} at sandbox level {}: {} graded, {} kept, {} could not be taken. Table: {}",
-                  tasks.size(), tasks.size() == 1 ? "" : "s", numberOf(sandbox->level), graded,
-                  static_cast<int>(tasks.size()) - graded, handedIn.complaints.size(),
-                  shown(options.out / "grades.csv")));
-  if (!complete || taken == ExitCode::kGraderFault) return ExitCode::kGraderFault;
-  return held > 0 ? ExitCode::kBelow : taken;
+  return gradeClass(project, course, std::move(options));
 }
 
 }  // namespace

@@ -20,8 +20,9 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
                       .wanted = fmt::format("1 to {}", tasks.size())});
   const classroom::Task& task = tasks[static_cast<std::size_t>(options.task) - 1];
   const std::string name = fmt::format("{} {}", task.student, task.exercise);
-  if (classroom::taskState(task, options.out, options.secret) == classroom::TaskState::kDone &&
-      (!options.evidence || classroom::hasEvidence(task, options.out))) {
+  const classroom::StoredResult stored =
+      classroom::readStored(task, options.out, classroom::classSecret(options.secret));
+  if (stored.isDone() && (!options.evidence || stored.hasEvidence)) {
     say(fmt::format("{}: kept", name));
     return ExitCode::kFull;
   }
@@ -30,7 +31,7 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
   lowerCpuSeconds(kSecondsOfTask);
   const ExerciseInfo exercise = project.exercise(task.exercise);
   const PrivateFolder work(std::filesystem::temp_directory_path());
-  const grading::GradeResult result = classroom::gradeTask(task, prepare(project, exercise), exercise,
+  const grading::GradeResult result = classroom::gradeTask(task, stored, prepare(project, exercise), exercise,
                                                            {.out = options.out,
                                                             .workFolder = work.path(),
                                                             .launcher = sandbox->launcher,

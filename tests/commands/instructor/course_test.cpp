@@ -6,6 +6,7 @@
 #include "cli/command_schema.h"
 #include "commands/built_project.h"
 #include "support/class_results.h"
+#include "support/file_openings.h"
 #include "support/paths.h"
 #include "support/report_checker.h"
 
@@ -181,6 +182,23 @@ TEST_F(CourseTest, PrintsTheStateOfEachTaskAsJson) {
   EXPECT_EQ(json.at("tasks").at(1).at("state"), "missing");
   EXPECT_EQ(json.at("tasks").at(1).at("points"), nullptr);
   EXPECT_EQ(collect({"--json", "--csv"}).code, 64);
+}
+
+TEST_F(CourseTest, OpensEachResultOnce) {
+  FileOpenings zoe(results() / "zoe" / kEx);
+  int commands = 0;
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--report=markdown,gradescope,junit,github", "--json"},
+        {"--explain", "zoe", "98"}}) {
+    collect(more);
+    EXPECT_EQ(zoe.of("results.json"), ++commands) << more[0];
+  }
+  for (const std::string target : {"json", "html", "canvas"}) {
+    EXPECT_EQ(exported(target).code, 0);
+    EXPECT_EQ(zoe.of("results.json"), ++commands) << target;
+  }
+  EXPECT_EQ(rex({"dev", "stats", results().string(), "--course", course()}).code, 0);
+  EXPECT_EQ(zoe.of("results.json"), ++commands);
 }
 
 TEST_F(CourseTest, SaysThatAFolderOfResultsIsMissing) {

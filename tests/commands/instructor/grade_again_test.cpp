@@ -4,6 +4,7 @@
 
 #include "commands/instructor/graded_class.h"
 #include "grading/results.h"
+#include "support/file_openings.h"
 #include "support/rounds.h"
 
 namespace rex::cli::grade_again_test {
@@ -40,6 +41,29 @@ TEST_F(GradeAgainTest, GradesAgainOnlyWhatHasChanged) {
   write(results() / "carl/98-template/results.json", "{}");
   fs::remove(results() / "adam/98-template/results.json");
   EXPECT_THAT(flat(grade({"--secret-file", secret}).error), kept("2 graded, 1 kept"));
+}
+
+// Whatever is made of a result, so that no table contradicts a report.
+TEST_F(GradeAgainTest, OpensEachKeptResultOnce) {
+  write(root() / "secret", "the secret of the course\n");
+  const std::string secret = (root() / "secret").string();
+  handIn("adam", kBroken), handIn("bob", kBroken);
+  EXPECT_EQ(grade({"--secret-file", secret, "--report=markdown,junit"}).code, 0);
+  FileOpenings adam(results() / "adam/98-template"), bob(results() / "bob/98-template");
+  EXPECT_THAT(flat(grade({"--secret-file", secret, "--report=markdown,junit", "--json"}).error),
+              HasSubstr("0 graded, 2 kept"));
+  EXPECT_EQ(adam.of("results.json"), 1);
+  EXPECT_EQ(bob.of("results.json"), 1);
+  handIn("bob", "int main() {\n");
+  EXPECT_THAT(flat(grade({"--secret-file", secret}).error), HasSubstr("1 graded, 1 kept"));
+  EXPECT_EQ(adam.of("results.json"), 2);
+  EXPECT_EQ(bob.of("results.json"), 3) << "once before it is graded again, once after";
+  grade({"--manifest", (root() / "tasks.tsv").string(), "--secret-file", secret});
+  EXPECT_THAT(rex({"grade", "--manifest", (root() / "tasks.tsv").string(), "--task", "1", "-o",
+                   results().string(), "--secret-file", secret})
+                  .output,
+              HasSubstr("adam 98-template: kept"));
+  EXPECT_EQ(adam.of("results.json"), 4);
 }
 
 // Programs are kept by what they were made of: another seed takes the same one, other files never do.
