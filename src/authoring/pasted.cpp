@@ -298,7 +298,7 @@ std::string withBody(const std::string& source, const ShownCode& task, const std
   return text.replace(task.body, task.start + task.text.size() - task.body, body);
 }
 
-using PointsByCheck = std::map<std::string, int>;
+using CheckResults = std::map<std::string, grading::CheckResult>;
 
 /// Grades what was pasted.
 class PasteGrader {
@@ -352,39 +352,49 @@ class PasteGrader {
   }
 
  private:
-  PointsByCheck pointsOf(const submission::BuiltSubmission& built,
+  CheckResults resultsOf(const submission::BuiltSubmission& built,
                          const std::vector<std::string>& checks) const {
-    PointsByCheck points;
-    if (built.worker.empty()) return points;
+    CheckResults results;
+    if (built.worker.empty()) return results;
     submission::SubmissionOptions options{.main = context_.workFolder / "main.cpp",
                                           .workFolder = built.worker.parent_path(),
                                           .job = {.results = context_.workFolder / "results.json"}};
     options.job.checks = checks;
     for (const grading::CheckResult& check :
          submission::gradeBuilt(built, context_.toolchain, context_.exercise, options).checks)
-      points[check.id] = check.points;
-    return points;
+      results[check.id] = check;
+    return results;
+  }
+
+  // The checks that the function as handed out does not pass: those that ask it, or if none does, those that
+  // ask others which call it.
+  static std::vector<std::string> openChecks(const CheckResults& floor, const std::string& function) {
+    std::vector<std::string> own, all;
+    for (const auto& [id, check] : floor) {
+      if (check.points == check.maxPoints) continue;
+      all.push_back(id);
+      if (check.function == function) own.push_back(id);
+    }
+    return own.empty() ? all : own;
   }
 
   // What was pasted into one task, beside the function as handed out.
   void judge(std::size_t task, const JointBuild& build, std::size_t stub,
              const std::vector<std::string>& files, Pasted& all) {
-    const PointsByCheck floor = pointsOf(build.link(stub), {});
-    std::vector<std::string> open;
-    for (const grading::CheckResult& check : submission::listChecks(context_.toolchain))
-      if (floor.contains(check.id) && floor.at(check.id) < check.maxPoints) open.push_back(check.id);
+    const CheckResults floor = resultsOf(build.link(stub), {});
+    const std::vector<std::string> open = openChecks(floor, tasks_[task].name);
     if (open.empty()) return;
     for (std::size_t k = 0; k < pastes_.size(); ++k) {
       if (pastes_[k].task != task || !build.holds(k)) continue;
-      const std::vector<std::string> gains = gainsOf(pointsOf(build.link(k), open), floor);
+      const std::vector<std::string> gains = gainsOf(resultsOf(build.link(k), open), floor);
       if (!gains.empty() && passesAlone(files[k], gains)) complain(pastes_[k], gains, all);
     }
   }
 
-  static std::vector<std::string> gainsOf(const PointsByCheck& points, const PointsByCheck& floor) {
+  static std::vector<std::string> gainsOf(const CheckResults& results, const CheckResults& floor) {
     std::vector<std::string> checks;
-    for (const auto& [check, number] : points)
-      if (number > floor.at(check)) checks.push_back(check);
+    for (const auto& [id, check] : results)
+      if (check.points > floor.at(id).points) checks.push_back(id);
     return checks;
   }
 
