@@ -19,6 +19,11 @@ using ::testing::Not;
 
 class ExerciseGates : public BuiltProject {
  protected:
+  void SetUp() override {
+    BuiltProject::SetUp();
+    fs::create_directories(root() / "share");
+    write(root() / "share" / "layers.txt", "0 base public\n");
+  }
   void expectOpenGate(const std::string& gate, const std::string& message) const {
     const Ended ended = rex({"dev", "check", "98", "--gate", gate});
     EXPECT_EQ(ended.code, 1) << gate;
