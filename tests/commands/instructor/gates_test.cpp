@@ -140,7 +140,7 @@ TEST_F(ExerciseGates, FindsShownCodeThatGetsPoints) {
         "                                              std::sin(turn) * at.x() + std::cos(turn) * at.y());\n"
         "  rex::print(\"end\", Eigen::MatrixXd(end));\n}\n");
   expectOpenGate("pasted",
-                 "show.cpp: the function 'turnedBy', pasted into 'rotated', passes angles-add, keeps-length, "
+                 "show.cpp: the function 'turnedBy', pasted into 'rotated', passes keeps-length, "
                  "quarter-turn");
   expectOpenGate("pasted", "show.cpp: the expression 'Eigen::Vector2d(std::cos(turn) * at.x()");
   expectOpenGate("pasted", "pasted 1 functions and 1 expressions");
