@@ -22,17 +22,10 @@ namespace {
 // The names that `git ls-files` prints, each ended by a zero byte.
 std::set<std::string> listed(const std::filesystem::path& root, std::vector<std::string> options) {
   // The user need not own the files, and a git hook points its children to another repository.
-  std::vector<std::string> command = {"git",
-                                      "-c",
-                                      "safe.directory=*",
-                                      "-C",
-                                      root.string(),
-                                      "--git-dir=" + (root / ".git").string(),
-                                      "--work-tree=" + root.string(),
-                                      "ls-files",
-                                      "-z"};
-  command.insert(command.end(), options.begin(), options.end());
-  const ProcessResult run = runProcess(command, {.outputLimit = 64 << 20});
+  options.insert(options.begin(),
+                 {"git", "-c", "safe.directory=*", "-C", root.string(),
+                  "--git-dir=" + (root / ".git").string(), "--work-tree=" + root.string(), "ls-files", "-z"});
+  const ProcessResult run = runProcess(options, {.outputLimit = 64 << 20});
   if (!run.ok())
     throw Error({.what = "cannot ask git which files belong to the course",
                  .where = {root.string()},
@@ -227,10 +220,17 @@ class Collector {
         add(SecretKind::kHiddenName, {line.number, literal}, file, {letters(literal, Comments::kKeep)});
   }
 
-  // All of it but includes and hidden blocks, which are other secrets.
+  // All of it but includes, hidden blocks, which are other secrets, and lines of raw strings, which the
+  // compiler leaves as they are, and a check may show.
   void addVisible(const fs::path& file) {
     const std::string text = readTextFile(file);
     Block lines = linesOf(text);
+    bool isRaw = false;
+    std::erase_if(lines, [&](const submission::BlockLine& line) {
+      const bool ends = line.text.find(")\"") != line.text.npos, isInside = isRaw && !ends;
+      isRaw = isInside || (line.text.find("R\"(") != line.text.npos && !ends);
+      return isInside;
+    });
     std::erase_if(lines, [](const submission::BlockLine& line) { return line.text.starts_with('#'); });
     for (const Block& hidden : submission::hiddenBlocks(text, file.string()))
       std::erase_if(lines, [&](const submission::BlockLine& line) {

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 constexpr const char* kSolution =
     "#include \"exercise.h\"\n"
@@ -275,6 +276,12 @@ TEST_F(LeakScanTest, FindsVisibleChecksAndTheirHelpersInAnInstalledTree) {
               ElementsAre(HasSubstr("a check or its helper would reach students")));
   EXPECT_THAT(told("share/rex/exercises/01-circle/check.cpp", "int main() {}\n"),
               ElementsAre(HasSubstr("a file of that name")));
+  const std::string scene =
+      "  body post {} body left { mass=1 } body right { mass=1 } joint (post left) {}\n";
+  write("root/exercises/01-circle/area_checks.h", "constexpr const char* kScene = R\"(\n" + scene +
+                                                      "  joint (post right) { type=hingeX })\";\n" + helper);
+  EXPECT_THAT(told("lib/rex/exercises/01-circle/data", scene), IsEmpty()) << "a compiled grader holds it";
+  EXPECT_THAT(told("share/doc/rex/a.md", helper), SizeIs(1)) << "after the end of the literal";
 }
 
 TEST_F(LeakScanTest, LetsTheLibraryHoldAllButTheSecretOfTheCourse) {
