@@ -129,6 +129,8 @@ TEST(Integral, RefusesJumpsAndInventedDerivatives) {
   EXPECT_THAT(alongPath([](double x) { return x * x; }, [](double) { return 0; }).message,
               HasSubstr(message));
   EXPECT_THAT(alongPath([](double) { return 0; }, [](double) { return 1; }).message, HasSubstr(message));
+  EXPECT_THAT(alongPath([](double x) { return std::tanh(200 * x); }, [](double) { return 0; }).message,
+              HasSubstr(message));
 }
 
 }  // namespace rex::grading::own_differences_test
