@@ -13,7 +13,7 @@
 #include "classroom/stored_result.h"
 #include "classroom/task_list.h"
 #include "grading/grading_job.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 #include "submission/build_tools.h"
 #include "submission/exercise_info.h"
 

@@ -43,7 +43,7 @@ Json hashesOf(const fs::path& entry, const std::vector<std::string>& parts) {
   return hashes;
 }
 
-// The worker gets a second name: whoever finds a fault in the entry may remove it while the worker runs.
+// The worker gets a second name, because the entry may be removed, being faulty, while the worker runs.
 void takeWorker(const fs::path& kept, const fs::path& worker) {
   std::error_code otherDisk;
   fs::remove(worker);

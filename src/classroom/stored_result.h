@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "classroom/task_list.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 
 namespace rex::classroom {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/escape.h"
 #include "base/sha256.h"
 #include "base/text_file.h"
-#include "grading/results_internal.h"
 
 namespace rex::grading {
 namespace {
@@ -324,26 +324,12 @@ GradeResult readResult(const Fields& fields) {
   return result;
 }
 
-}  // namespace
-
-std::string toString(const CompileDiagnostic& message) {
-  const std::string where = toString(SourceLocation{message.file, message.line, message.column});
-  const std::string rule = message.rule.empty() ? "" : fmt::format(" [{}]", message.rule);
-  return fmt::format("{}{}{}: {}{}", where, where.empty() ? "" : ": ", message.severity, message.message,
-                     rule);
-}
-
-std::string toJson(const GradeResult& result) {
-  return shown(resultToJson(result)).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
+// The text must have been parsed without exceptions.
 GradeResult resultFromParsed(const Json& json, const std::string& file) {
   if (json.is_discarded())
     throw Error({.what = "result file: not JSON", .where = {.file = file}, .wanted = kSchema});
   return readResult(Fields(json, "", file));
 }
-
-namespace {
 
 std::string sealOf(const Json& json) {
   SortedJson counted = SortedJson::object();
@@ -352,8 +338,7 @@ std::string sealOf(const Json& json) {
   return sha256(counted.dump(-1, ' ', false, SortedJson::error_handler_t::replace));
 }
 
-}  // namespace
-
+// Points that do not add up, an outcome that does not fit the checks, a broken seal: see computeSeal().
 void requireSound(const GradeResult& result, const Json& json, const std::filesystem::path& file) {
   requireSums(result, file);
   if (!json.contains("inputs")) return;
@@ -369,6 +354,53 @@ void requireSound(const GradeResult& result, const Json& json, const std::filesy
                  .wanted = wanted.substr(0, 12) + ", or a new grading"});
 }
 
+// The table of that name; empty if there is none.
+const Json& tableIn(const Json& json, const char* name) {
+  static const Json kNone = Json::object();
+  const bool isThere = json.is_object() && json.contains(name) && json[name].is_object();
+  return isThere ? json[name] : kNone;
+}
+
+std::optional<GradedWith> gradedWith(const Json& inputs) {
+  try {
+    GradedWith with{.level = sandbox::parseLevel(inputs.at("level").get<int>()),
+                    .secretId = inputs.at("secret_id").get<std::string>(),
+                    .alone = inputs.value("alone", false)};
+    if (inputs.contains("seed")) with.seed = inputs["seed"].get<std::uint64_t>();
+    return with;
+  } catch (const Json::exception&) {
+    return {};
+  } catch (const Error&) {
+    return {};  // no such level
+  }
+}
+
+ResultInputs inputsOf(const Json& json) {
+  const Json &inputs = tableIn(json, "inputs"), &kept = tableIn(json, "volatile");
+  const auto textOf = [&](const char* key) {
+    return inputs.contains(key) && inputs[key].is_string() ? inputs[key].get<std::string>() : std::string();
+  };
+  return {.sha256 = textOf("sha256"),
+          .sourceSha256 = textOf("source_sha256"),
+          .seal = textOf("result_sha256"),
+          .hmac = textOf("result_hmac"),
+          .with = gradedWith(inputs),
+          .evidence = kept.contains("evidence") && kept["evidence"] == true};
+}
+
+}  // namespace
+
+std::string toString(const CompileDiagnostic& message) {
+  const std::string where = toString(SourceLocation{message.file, message.line, message.column});
+  const std::string rule = message.rule.empty() ? "" : fmt::format(" [{}]", message.rule);
+  return fmt::format("{}{}{}: {}{}", where, where.empty() ? "" : ": ", message.severity, message.message,
+                     rule);
+}
+
+std::string toJson(const GradeResult& result) {
+  return shown(resultToJson(result)).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 GradeResult gradeResultFromJson(const std::string& text, const std::string& file) {
   return resultFromParsed(Json::parse(text, nullptr, false), file);
 }
@@ -380,11 +412,17 @@ std::string computeSeal(const std::string& text, const std::string& file) {
   return sealOf(json);
 }
 
-GradeResult loadSoundResult(const std::filesystem::path& file) {
+std::optional<ResultFile> readResultFile(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return {};
   const Json json = Json::parse(readTextFile(file), nullptr, false);
-  GradeResult result = resultFromParsed(json, file.string());
-  requireSound(result, json, file);
-  return result;
+  ResultFile read{.inputs = inputsOf(json)};
+  try {
+    read.result = resultFromParsed(json, file.string());
+    requireSound(*read.result, json, file);
+  } catch (const Error& error) {
+    read.fault = error.what();
+  }
+  return read;
 }
 
 }  // namespace rex::grading

@@ -9,12 +9,10 @@
 
 #include "base/error.h"
 #include "support/file_text.h"
-#include "support/paths.h"
-#include "support/temporary_folder.h"
+#include "support/template_exercise.h"
 
 namespace rex::authoring::killed_mutants_test {
 
-namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
@@ -22,29 +20,9 @@ using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
-// A copy of the template, whose grader was built beforehand.
-class KilledMutants : public ::testing::Test {
+class KilledMutants : public TemplateExercise {
  protected:
-  void SetUp() override {
-    fs::create_directories(exercise().parent_path());
-    fs::copy(buildPath("tests/template/source"), exercise(), fs::copy_options::recursive);
-  }
-
-  fs::path exercise() const { return temporary_.path() / "exercises" / "98-template"; }
-  void write(const char* name, const std::string& text) const { std::ofstream(exercise() / name) << text; }
-  GateResult pass() const {
-    const fs::path work = temporary_.path() / "work";
-    fs::remove_all(work);
-    fs::create_directory(work);
-    return runGate(
-        {.root = temporary_.path(),
-         .exercise = submission::readExerciseInfo(exercise()),
-         .toolchain = submission::readToolchain(buildPath("tests/template/exercises/98-template/build.json")),
-         .workFolder = work},
-        "mutants");
-  }
-
-  TemporaryFolder temporary_;
+  GateResult passMutants() const { return pass("mutants"); }
 };
 
 // No check turns by more than 99 rad.
@@ -55,7 +33,7 @@ TEST_F(KilledMutants, AreAllButThoseThatChangeNothing) {
   ASSERT_NE(idle.find(line), idle.npos);
   write("solution.cpp", idle.replace(idle.find(line), line.size(),
                                      "const double s = std::sin(angle) + (angle > 99 ? 9 : 0);"));
-  const GateResult open = pass();
+  const GateResult open = passMutants();
   EXPECT_FALSE(open.passed);
   EXPECT_THAT(open.message, AllOf(HasSubstr("solution.cpp:14:45: comparison: const double s = "
                                             "std::sin(angle) + (angle > 99 ? 9 : 0); -> const double s = "
@@ -68,7 +46,7 @@ TEST_F(KilledMutants, AreAllOfTheTemplate) {
   write("equal_mutants.tsv",
         "const double c = std::cos(angle);\tconst double c = std::sin(angle);\tnot graded\n"
         "return a;\treturn -(a);\tthere is none\n");
-  const GateResult listed = pass();
+  const GateResult listed = passMutants();
   EXPECT_EQ(listed.message, "equal_mutants.tsv:2: no mutant is 'return a;' -> 'return -(a);'");
   EXPECT_THAT(listed.note,
               AllOf(StartsWith("made "), HasSubstr(" 0 survived, "), EndsWith("; 1 equal: not graded")));
@@ -90,7 +68,7 @@ Eigen::Vector2d rotated(const Eigen::Vector2d& p, double angle) {
 
 int main() {}
 )");
-  const GateResult result = pass();
+  const GateResult result = passMutants();
   EXPECT_TRUE(result.passed) << result.message;
   EXPECT_THAT(result.note, StartsWith("made 3 mutants of 3: 2 killed, 0 survived, 1 do not compile; "));
   EXPECT_THAT(result.note, EndsWith(" s; no mutant needs keeps-length"));

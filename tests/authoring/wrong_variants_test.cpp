@@ -8,8 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "support/file_text.h"
-#include "support/paths.h"
-#include "support/temporary_folder.h"
+#include "support/template_exercise.h"
 
 namespace rex::authoring::wrong_variants_test {
 
@@ -19,12 +18,10 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-// A copy of the template, whose grader was built beforehand; its solution includes what a variant calls.
-class WrongVariantsTest : public ::testing::Test {
+// The solution of the template includes what a variant calls.
+class WrongVariantsTest : public TemplateExercise {
  protected:
   void SetUp() override {
-    fs::create_directories(exercise().parent_path());
-    fs::copy(buildPath("tests/template/source"), exercise(), fs::copy_options::recursive);
     fs::remove(exercise() / "seen.txt");
     const std::string wrong = fileText(exercise() / "wrong.cpp");
     write("wrong.cpp", wrong.substr(0, wrong.find("// <variant library>")));
@@ -32,33 +29,14 @@ class WrongVariantsTest : public ::testing::Test {
     writeVariant("library", "caught by: forbidden-call", kByLibrary);
   }
 
-  fs::path exercise() const { return temporary_.path() / "exercises" / "98-template"; }
-  void write(const fs::path& file, const std::string& text) const {
-    std::ofstream(exercise() / file) << text;
-  }
   void writeVariant(const std::string& name, const std::string& header, const std::string& body) const {
     std::ofstream(exercise() / "wrong.cpp", std::ios::app) << "\n// <variant " + name + ">\n// " + header +
                                                                   "\n// mistake: " + name +
                                                                   ".\n// <solution rotated>\n" + body;
   }
-  GateResult pass(const std::string& gate, bool storesMessages = false,
-                  const std::vector<std::string>& variants = {}) const {
-    const fs::path work = temporary_.path() / "work";
-    fs::remove_all(work);
-    fs::create_directory(work);
-    return runGate(
-        {.root = temporary_.path(),
-         .exercise = submission::readExerciseInfo(exercise()),
-         .toolchain = submission::readToolchain(buildPath("tests/template/exercises/98-template/build.json")),
-         .workFolder = work,
-         .variants = variants,
-         .storesMessages = storesMessages},
-        gate);
-  }
 
   static constexpr const char* kByLibrary =
       "return rex::rotationAboutAxis(angle, Eigen::Vector3d::UnitZ()).topLeftCorner<2, 2>() * p;\n";
-  TemporaryFolder temporary_;
 };
 
 TEST_F(WrongVariantsTest, AreCaughtTogetherAndTheirMessagesStoredIfAsked) {

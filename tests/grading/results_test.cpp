@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 namespace rex::grading::results_test {
 
 using Json = nlohmann::json;
+using ::testing::HasSubstr;
 
 GradeResult someResult() {
   GradeResult result;
@@ -155,26 +157,28 @@ TEST(ResultFile, IsReplacedAndReadBack) {
 TEST(ResultFile, IsNotBelievedUnlessItAddsUp) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "r.json";
+  EXPECT_FALSE(readResultFile(file));
   GradeResult sound = someResult();
   sound.outcome = Outcome::kFail;
   sound.checks = {{.id = "hand", .status = Outcome::kPass, .points = 3, .maxPoints = 3},
                   {.id = "foot", .status = Outcome::kFail, .points = 1, .maxPoints = 2}};
   sound.score = 4, sound.maxScore = 5;
   saveResult(sound, file);
-  EXPECT_EQ(toJson(loadSoundResult(file)), toJson(sound));
-  const auto expectRefusal = [&](GradeResult edited, const std::string& why) {
+  EXPECT_EQ(readResultFile(file)->fault, "");
+  EXPECT_EQ(toJson(*readResultFile(file)->result), toJson(sound));
+  const auto expectFault = [&](GradeResult edited, const std::string& why) {
     saveResult(edited, file);
-    EXPECT_REX_ERROR(loadSoundResult(file), "r.json: a result that does not add up: " + why);
+    EXPECT_THAT(readResultFile(file)->fault, HasSubstr("r.json: a result that does not add up: " + why));
   };
   GradeResult edited = sound;
   edited.score = 5;
-  expectRefusal(edited, "score: found 5, wanted 4, the sum over its checks");
+  expectFault(edited, "score: found 5, wanted 4, the sum over its checks");
   edited = sound, edited.maxScore = 4;
-  expectRefusal(edited, "max_score: found 4, wanted 5, the sum over its checks");
+  expectFault(edited, "max_score: found 4, wanted 5, the sum over its checks");
   edited = sound, edited.checks[0].points = 4;
-  expectRefusal(edited, "check 'hand': found 4 points, wanted 0 to 3");
+  expectFault(edited, "check 'hand': found 4 points, wanted 0 to 3");
   edited = sound, edited.outcome = Outcome::kPass;
-  expectRefusal(edited, "outcome: found pass, wanted the outcome of the check that did not pass");
+  expectFault(edited, "outcome: found pass, wanted the outcome of the check that did not pass");
 }
 
 TEST(ResultFile, IsNotBelievedIfItWasChangedAfterItWasSealed) {
@@ -186,13 +190,17 @@ TEST(ResultFile, IsNotBelievedIfItWasChangedAfterItWasSealed) {
   json["inputs"]["result_sha256"] = computeSeal(json.dump(), "r.json");
   json["volatile"]["usage"]["cpu_ms"] = 7;
   std::ofstream(file) << json.dump();
-  EXPECT_EQ(loadSoundResult(file).outcome, Outcome::kFail) << "neither times nor the order of keys count";
+  EXPECT_EQ(readResultFile(file)->fault, "") << "neither times nor the order of keys count";
   json["message"] = "well done";
   std::ofstream(file) << json.dump();
-  EXPECT_REX_ERROR(loadSoundResult(file), "r.json: a result that was changed after the grading: found hash ");
+  EXPECT_THAT(readResultFile(file)->fault,
+              HasSubstr("r.json: a result that was changed after the grading: found hash "));
   json["inputs"].erase("result_sha256");
   std::ofstream(file) << json.dump();
-  EXPECT_REX_ERROR(loadSoundResult(file), "wanted none, or a new grading");
+  EXPECT_THAT(readResultFile(file)->fault, HasSubstr("wanted none, or a new grading"));
+  std::ofstream(file) << "no JSON";
+  EXPECT_THAT(readResultFile(file)->fault, HasSubstr("r.json: result file: not JSON"));
+  EXPECT_FALSE(readResultFile(file)->result);
   EXPECT_REX_ERROR(computeSeal("[]", "r.json"), "r.json: result file: not JSON: wanted a result");
 }
 
