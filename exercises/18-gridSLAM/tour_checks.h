@@ -153,9 +153,7 @@ inline void keepsRule(Check& check, Student& student) {
     return got.effectiveSizes;
   };
   const auto meanOfLast = [](const std::vector<double>& sizes) {
-    double sum = 0;
-    for (std::size_t t = 25; t < 40; ++t) sum += sizes[t] / 15;
-    return sum;
+    return Eigen::Map<const Eigen::VectorXd>(sizes.data(), 40).tail(15).mean();
   };
   std::vector<double> always;
   const std::vector<double> never = sizesFor(0);
@@ -184,4 +182,8 @@ inline void keepsRule(Check& check, Student& student) {
   }
   const auto neverDone = check.ask("Are particles never resampled, or do they keep their weights?");
   check.atLeast("mean effective size of the last steps if the threshold is above 1", meanOfLast(always), 4.5);
+  settings.temper = 1e6;
+  const std::vector<double> equal = sizesFor(0);
+  check.atLeast("least effective size if scans hardly count", *std::min_element(equal.begin(), equal.end()),
+                9.9);
 }
