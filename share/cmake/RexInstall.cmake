@@ -91,7 +91,7 @@ function(rex_install_exercises)
     rex_install_description(${built}/build.json ${destination}/build.json)
     install(CODE "
       set(folder \"${PROJECT_SOURCE_DIR}/exercises/${name}\")
-      set(target \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/rex/exercises/${name}\")
+      set(target \"\${CMAKE_INSTALL_PREFIX}/share/rex/exercises/${name}\")
       include(\"${PROJECT_SOURCE_DIR}/share/cmake/install/exercise_files.cmake\")" COMPONENT runtime)
   endforeach()
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION share/rex COMPONENT runtime ${REX_TRANSIENT})

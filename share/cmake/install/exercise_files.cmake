@@ -1,6 +1,6 @@
-# Included by `cmake --install`: copies to `target` what students get of the exercise in `folder`. Of its sources that is what
-# the program that they complete is made of, main.cpp, show.cpp and exercise.h with the headers that these include, so that
-# no file of the checks can be among them; of other files, all but those of the gates.
+# Included by `cmake --install`: copies to `target` (below $DESTDIR, if there is one) what students get of the exercise in
+# `folder`. Of its sources that is what the program that they complete is made of, main.cpp, show.cpp and exercise.h with the
+# headers that these include, so that no file of the checks can be among them; of other files, all but those of the gates.
 cmake_policy(VERSION 3.25)
 file(GLOB files RELATIVE ${folder} ${folder}/*)
 list(FILTER files EXCLUDE REGEX "(\\.cpp|\\.h|\\.new|\\.d)$|^seen\\.txt$|^equal_mutants\\.tsv$|^rex-work-|^__pycache__$")
