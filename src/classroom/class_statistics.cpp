@@ -282,7 +282,9 @@ ClassResults resultsByPerson(const ClassResults& read, const Gradebook& book) {
         check.points = wholePoints(by.after);
         if (check.points == check.maxPoints) check.status = grading::Outcome::kPass;
       }
-    one.result.score = wholePoints(row.points);
+    std::erase_if(one.result.checks,
+                  [&](const grading::CheckResult& check) { return !row.worth.counts(check.part); });
+    one.result.score = wholePoints(row.points), one.result.maxScore = wholePoints(row.possible);
     people.results.push_back(std::move(one));
   }
   std::ranges::stable_sort(people.results, {},

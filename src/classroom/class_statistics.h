@@ -43,7 +43,8 @@ struct ClassResults {
 
 /// Those results for the people of a grade book: a result that a group handed in counts for each of its
 /// members, one that a later one replaced for nobody, and that of a stranger not at all. Points of checks are
-/// those after adjustments by people, rounded; changes of final points and lateness are left out.
+/// those after adjustments by people, rounded; changes of final points and lateness are left out, and so are
+/// parts that do not count.
 [[nodiscard]] ClassResults resultsByPerson(const ClassResults& read, const Gradebook& book);
 
 struct CheckStatistics {

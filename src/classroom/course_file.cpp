@@ -139,9 +139,8 @@ class CourseReader {
   CourseReader(const fs::path& file, const std::vector<submission::ExerciseInfo>& exercises, RosterUse use)
       : folder_(file.parent_path()),
         use_(use),
-        top_(TomlTable::read(file, "the course file", "a course file")) {
-    for (const submission::ExerciseInfo& exercise : exercises) exercises_.push_back(exercise.name);
-  }
+        exercises_(exercises),
+        top_(TomlTable::read(file, "the course file", "a course file")) {}
 
   Course read() {
     top_.refuseKeysBut(kCourseKeys);
@@ -151,18 +150,15 @@ class CourseReader {
     readSettings(course_.settings);
     if (top_.has("time_zone")) course_.timeZone = zoneAt("time_zone");
     if (use_ == RosterUse::kRead) readStudents();
-    course_.policy = parseLatePolicy(top_, exercises_);
-    const auto exercises = top_.table("exercise", "[exercise]", "a table");
-    for (const std::string& name : exercises ? exercises->keys() : std::vector<std::string>{})
-      readExercise(*exercises->table(name, fmt::format("[exercise.{}]", name), "a table"), name);
-    if (const auto all = top_.table("all", "[all]", "a table")) {
-      if (all->has("weight"))
-        throw Error({.what = "[all]: 'weight'",
-                     .where = all->where("weight"),
-                     .wanted = "a weight in the table of an exercise"});
-      requireExtensions(*all);
+    std::vector<std::string> names;
+    for (const submission::ExerciseInfo& exercise : exercises_) names.push_back(exercise.name);
+    course_.policy = parseLatePolicy(top_, folder_, names);
+    readExercises();
+    if (const auto total = top_.table("total", "[total]", "a table")) readTotal(*total);
+    for (auto& [exercise, rule] : course_.policy) {
+      requireExtensions(rule);
+      giveToMembers(rule);
     }
-    for (auto& [exercise, rule] : course_.policy) giveToMembers(rule);
     return std::move(course_);
   }
 
@@ -203,29 +199,115 @@ class CourseReader {
     roster.end();
   }
 
-  void readExercise(const TomlTable& keys, const std::string& name) {
+  void readExercises() {
+    std::optional<std::int64_t> minimum;
+    const auto exercises = top_.table("exercise", "[exercise]", "a table");
+    if (const auto all = top_.table("all", "[all]", "a table")) {
+      for (const char* key : {"weight", "parts", "bonus"})
+        if (all->has(key))
+          throw Error({.what = fmt::format("[all]: '{}'", key),
+                       .where = all->where(key),
+                       .wanted = "it in the table of an exercise"});
+      if (all->has("minimum_percent")) {
+        if (!exercises) throw needsExercises(*all, "[all]", "minimum_percent");
+        minimum = percentAt(*all, "minimum_percent");
+      }
+    }
+    for (const std::string& name : exercises ? exercises->keys() : std::vector<std::string>{})
+      readExercise(*exercises->table(name, fmt::format("[exercise.{}]", name), "a table"), name, minimum);
+  }
+
+  void readExercise(const TomlTable& keys, const std::string& name, std::optional<std::int64_t> minimum) {
     constexpr double kMostWeight = 1000;
-    course_.weights[name] =
-        keys.has("weight") ? std::llround(100 * keys.number("weight", 0, kMostWeight)) : 100;
-    if (course_.weights[name] == 0)
+    CourseExercise& exercise = course_.exercises[name];
+    if (keys.has("weight")) exercise.weight = std::llround(100 * keys.number("weight", 0, kMostWeight));
+    if (exercise.weight == 0)
       throw Error({.what = fmt::format("[exercise.{}]: 'weight'", name),
                    .where = keys.where("weight"),
                    .wanted = "at least 0.01"});
-    requireExtensions(keys);
+    if (keys.has("parts")) exercise.parts = partsAt(keys, name);
+    exercise.isBonus = keys.has("bonus") && keys.boolean("bonus");
+    if (exercise.isBonus && keys.has("minimum_percent"))
+      throw Error({.what = fmt::format("[exercise.{}]: 'minimum_percent'", name),
+                   .where = keys.where("minimum_percent"),
+                   .found = "a minimum of a bonus",
+                   .wanted = "a bonus, which nobody needs, or a minimum"});
+    if (keys.has("minimum_percent")) minimum = percentAt(keys, "minimum_percent");
+    if (!exercise.isBonus) exercise.minimum = minimum;
+  }
+
+  std::vector<std::string> partsAt(const TomlTable& keys, const std::string& name) const {
+    std::vector<std::string> known, parts;
+    for (const submission::ExercisePart& part : submission::findExercise(exercises_, name).parts)
+      known.push_back(part.id);
+    const auto refuse = [&](std::string found, std::vector<std::string> nearest = {}) {
+      throw Error({.what = fmt::format("[exercise.{}]: 'parts'", name),
+                   .where = keys.where("parts"),
+                   .found = std::move(found),
+                   .wanted = "some of " + join(known, ", "),
+                   .nearest = std::move(nearest)});
+    };
+    for (const std::string& part : keys.texts("parts")) {
+      if (std::find(known.begin(), known.end(), part) == known.end())
+        refuse("'" + part + "'", nearestNames(part, known));
+      if (std::find(parts.begin(), parts.end(), part) != parts.end()) refuse("'" + part + "' twice");
+      parts.push_back(part);
+    }
+    if (parts.empty()) refuse("none");
+    return parts;
+  }
+
+  static std::int64_t percentAt(const TomlTable& keys, const char* key) {
+    return std::llround(100 * keys.number(key, 0, 100));
+  }
+
+  static Error needsExercises(const TomlTable& keys, const std::string& table, const char* key) {
+    return Error({.what = fmt::format("{}: '{}'", table, key),
+                  .where = keys.where(key),
+                  .found = "no tables of exercises",
+                  .wanted = "[exercise.NAME] for each exercise that counts"});
+  }
+
+  void readTotal(const TomlTable& keys) {
+    TotalRules& rules = course_.total;
+    keys.refuseKeysBut({"best", "pass_percent", "pass_exercises"});
+    for (const char* key : {"best", "pass_percent", "pass_exercises"})
+      if (keys.has(key) && course_.exercises.empty()) throw needsExercises(keys, "[total]", key);
+    const auto counted = [&](const char* key, const char* what, const auto& isCounted) {
+      const auto most = std::count_if(course_.exercises.begin(), course_.exercises.end(), isCounted);
+      const int count = keys.integer(key, 1, 1000);
+      if (count > most)
+        throw Error({.what = fmt::format("[total]: '{}'", key),
+                     .where = keys.where(key),
+                     .found = fmt::format("{}", count),
+                     .wanted = fmt::format("at most {}, as many as {}", most, what)});
+      return count;
+    };
+    if (keys.has("best"))
+      rules.best = counted("best", "there are exercises without bonus",
+                           [](const auto& one) { return !one.second.isBonus; });
+    if (keys.has("pass_percent")) rules.passPercent = percentAt(keys, "pass_percent");
+    if (!keys.has("pass_exercises")) return;
+    rules.passExercises = counted("pass_exercises", "there are exercises with a minimum_percent",
+                                  [](const auto& one) { return one.second.minimum.has_value(); });
+    if (rules.best && *rules.passExercises > *rules.best)
+      throw Error({.what = "[total]: 'pass_exercises'",
+                   .where = keys.where("pass_exercises"),
+                   .found = fmt::format("{}", *rules.passExercises),
+                   .wanted = fmt::format("at most {}, as only the best {} count", *rules.best, *rules.best)});
   }
 
   // An extension for a name that nobody has is one that somebody misses.
-  void requireExtensions(const TomlTable& keys) const {
-    const auto extensions = keys.table("extensions", "extensions", "a table");
-    if (!extensions || !course_.hasRoster()) return;
+  void requireExtensions(const LateRule& rule) const {
+    if (!course_.hasRoster()) return;
     std::vector<std::string> known = course_.ids();
     for (const std::string& group : course_.groups()) known.push_back(group);
     for (const RosterFault& fault : course_.faults)
       known.insert(known.end(), {fault.student.id, fault.student.group});
-    for (const std::string& name : extensions->keys())
+    for (const auto& [name, where] : rule.places)
       if (std::find(known.begin(), known.end(), name) == known.end())
         throw Error({.what = fmt::format("an extension for '{}'", name),
-                     .where = extensions->where(name),
+                     .where = where,
                      .found = "nobody of this name on the roster",
                      .wanted = "the id of a student, or a group",
                      .nearest = nearestNames(name, known)});
@@ -239,12 +321,26 @@ class CourseReader {
 
   fs::path folder_;
   RosterUse use_;
-  std::vector<std::string> exercises_{};
+  const std::vector<submission::ExerciseInfo>& exercises_;
   TomlTable top_;
   Course course_{};
 };
 
 }  // namespace
+
+bool CourseExercise::counts(const std::string& part) const {
+  return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end();
+}
+
+CourseExercise Course::exercise(const std::string& name) const {
+  const auto found = exercises.find(name);
+  return found == exercises.end() ? CourseExercise{} : found->second;
+}
+
+bool Course::hasPassRules() const {
+  return total.passPercent ||
+         std::ranges::any_of(exercises, [](const auto& one) { return one.second.minimum.has_value(); });
+}
 
 const CourseStudent* Course::student(const std::string& id) const {
   const auto found = std::find_if(students.begin(), students.end(),

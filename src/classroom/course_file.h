@@ -37,19 +37,41 @@ struct GradingSettings {
   std::string reports{};       ///< names of formats with commas; empty: none
 };
 
+/// What an exercise counts for.
+struct CourseExercise {
+  std::int64_t weight = 100;              ///< hundredths
+  std::vector<std::string> parts{};       ///< ids of those that count; empty: all
+  bool isBonus = false;                   ///< adds to the total, but not to the points that are possible
+  std::optional<std::int64_t> minimum{};  ///< to pass, hundredths of a percent of its points; empty: none
+
+  [[nodiscard]] bool counts(const std::string& part) const;
+};
+
+/// What the total is made of, and who passes.
+struct TotalRules {
+  std::optional<int> best{};                  ///< only so many exercises count, for each student the best
+  std::optional<std::int64_t> passPercent{};  ///< hundredths of a percent of the possible points
+  std::optional<int> passExercises{};         ///< so many reach their minimum; empty: all that have one
+};
+
 /// The contents of a course file (share/doc/grading.md).
 struct Course {
   std::string title{};
-  std::vector<CourseStudent> students{};          ///< by id
-  std::vector<RosterFault> faults{};              ///< by place
-  std::vector<std::string> notes{};               ///< what names of the roster lost
-  LatePolicy policy{};                            ///< extensions of groups are listed for each member
-  std::map<std::string, std::int64_t> weights{};  ///< of the exercises of the course, in hundredths
-  std::filesystem::path results{};                ///< where results go; empty: not said
-  std::filesystem::path adjustments{};            ///< empty: none
+  std::vector<CourseStudent> students{};              ///< by id
+  std::vector<RosterFault> faults{};                  ///< by place
+  std::vector<std::string> notes{};                   ///< what names of the roster lost
+  LatePolicy policy{};                                ///< extensions of groups are listed for each member
+  std::map<std::string, CourseExercise> exercises{};  ///< of the course, by full name; empty: all there are
+  TotalRules total{};
+  std::filesystem::path results{};      ///< where results go; empty: not said
+  std::filesystem::path adjustments{};  ///< empty: none
   GradingSettings settings{};
   std::string timeZone{};  ///< in which times are shown to people; empty: UTC
 
+  /// What that exercise counts for, also if the course names none.
+  [[nodiscard]] CourseExercise exercise(const std::string& name) const;
+  /// Whether anybody can fail.
+  [[nodiscard]] bool hasPassRules() const;
   [[nodiscard]] bool hasRoster() const { return !students.empty() || !faults.empty(); }
   [[nodiscard]] const CourseStudent* student(const std::string& id) const;
   [[nodiscard]] std::vector<std::string> ids() const;
@@ -61,7 +83,8 @@ enum class RosterUse { kRead, kLeave };
 
 /// Paths in the file are relative to its folder. A row of the roster that is malformed, without id or with
 /// that of another becomes a fault. Throws Error with file, line and column for malformed files, unknown
-/// exercises and extensions for nobody. kLeave: as if there were no roster.
+/// exercises and parts, rules that nobody can meet, and extensions for nobody. kLeave: as if there were no
+/// roster.
 [[nodiscard]] Course readCourse(const std::filesystem::path& file,
                                 const std::vector<submission::ExerciseInfo>& exercises,
                                 RosterUse roster = RosterUse::kRead);

@@ -43,6 +43,7 @@ class BookMaker {
 
   Gradebook make() {
     book_.hasRoster = source_.course.hasRoster();
+    book_.hasBest = course_.total.best.has_value(), book_.hasPassRules = course_.hasPassRules();
     chooseExercises();
     assignTasks();
     addFaults();
@@ -64,13 +65,13 @@ class BookMaker {
     for (const std::string& exercise : graded) {
       if (!source_.only.empty() && exercise != source_.only) continue;
       shown_.push_back(exercise);
-      if (weights().empty() || weights().contains(exercise))
+      if (counted().empty() || counted().contains(exercise))
         book_.exercises.push_back(exercise);
       else
         book_.notes.push_back(
             fmt::format("{} is not an exercise of the course: it does not count", exercise));
     }
-    for (const auto& [exercise, weight] : weights())
+    for (const auto& [exercise, worth] : counted())
       if (!graded.contains(exercise) && source_.only.empty())
         book_.notes.push_back(fmt::format(
             "{}: {}, so it does not count yet", exercise,
@@ -131,6 +132,7 @@ class BookMaker {
     if (const ImportedStudent* person = source_.imported.find(row.student.id))
       row.student.name = person->name, row.student.email = person->email;
     row.remark = "not on the roster";
+    row.worth = course_.exercise(row.exercise);
     if (const RosterFault* fault = faultOf(run_.tasks[task])) row.remark += ": " + fault->why;
     take(task, row);
     finish(row);
@@ -158,6 +160,7 @@ class BookMaker {
 
   GradeRow rowOf(const CourseStudent& student, const std::string& exercise) {
     GradeRow row{.student = student, .exercise = exercise};
+    row.worth = course_.exercise(exercise);
     const auto points = source_.points.find(exercise);
     if (points != source_.points.end()) row.possible = kWhole * points->second;
     if (const auto rule = course_.policy.find(exercise); rule != course_.policy.end()) {
@@ -195,7 +198,12 @@ class BookMaker {
     if (state != TaskState::kDone) return;
     row.result = stored.result;
     row.status = RowStatus::kGraded;
+    row.score = row.result->score;
     row.possible = kWhole * row.result->maxScore;
+    if (row.worth.parts.empty()) return;
+    row.score = 0, row.possible = 0;
+    for (const grading::CheckResult& check : row.result->checks)
+      if (row.worth.counts(check.part)) row.score += check.points, row.possible += kWhole * check.maxPoints;
   }
 
   // A file that could not be read has a result that says so; what has no task has none.
@@ -230,7 +238,7 @@ class BookMaker {
   // Checks first, then lateness, then the final points.
   void finish(GradeRow& row) {
     if (row.result) {
-      row.points = kWhole * row.result->score;
+      row.points = kWhole * row.score;
       adjustChecks(row);
       const auto rule = course_.policy.find(row.exercise);
       if (rule != course_.policy.end())
@@ -254,6 +262,11 @@ class BookMaker {
     std::map<std::string, std::int64_t> now;
     for (const Adjustment* one : adjustmentsOf(row, true)) {
       const grading::CheckResult& check = checkOf(*row.result, *one);
+      if (!row.worth.counts(check.part)) {
+        book_.notes.push_back(fmt::format("{}: the check '{}' is in part '{}', which does not count",
+                                          toString(one->where), check.id, check.part));
+        continue;
+      }
       const std::int64_t most = kWhole * check.maxPoints;
       const std::int64_t before = now.try_emplace(check.id, kWhole * check.points).first->second;
       if (one->points && *one->points > most)
@@ -304,20 +317,65 @@ class BookMaker {
                                       row.student.id, row.exercise));
   }
 
-  StudentTotal totalOf(const CourseStudent& student) const {
+  StudentTotal totalOf(const CourseStudent& student) {
     StudentTotal sum{.student = student, .total = 0};
+    std::vector<const GradeRow*> rows;
+    for (const GradeRow& row : book_.rows)
+      if (row.student.id == student.id && holds(book_.exercises, row.exercise)) rows.push_back(&row);
+    leaveOut(rows, sum);
     std::int64_t total = 0, possible = 0;  // hundredths of hundredths
-    for (const GradeRow& row : book_.rows) {
-      if (row.student.id != student.id || !holds(book_.exercises, row.exercise)) continue;
-      const auto given = weights().find(row.exercise);
-      const std::int64_t weight = given == weights().end() ? kWhole : given->second;
-      if (row.status == RowStatus::kToRepeat) sum.total.reset();
-      total += weight * row.final.value_or(0);
-      possible += weight * row.possible;
+    for (const GradeRow* row : rows) {
+      if (row->status == RowStatus::kToRepeat) sum.total.reset();
+      total += row->worth.weight * row->final.value_or(0);
+      if (!row->worth.isBonus) possible += row->worth.weight * row->possible;
     }
     if (sum.total) sum.total = (total + kWhole / 2) / kWhole;
     sum.possible = (possible + kWhole / 2) / kWhole;
+    if (book_.hasPassRules && sum.total) judge(rows, sum);
     return sum;
+  }
+
+  // The exercises with the smallest shares of their points. Of equal shares, those with more possible points:
+  // no other choice gives the student a larger share in the end.
+  void leaveOut(std::vector<const GradeRow*>& rows, StudentTotal& sum) const {
+    if (!course_.total.best) return;
+    std::vector<const GradeRow*> ranked;
+    for (const GradeRow* row : rows)
+      if (!row->worth.isBonus) ranked.push_back(row);
+    const auto best = static_cast<std::size_t>(*course_.total.best);
+    if (ranked.size() <= best) return;
+    std::ranges::stable_sort(ranked, [](const GradeRow* a, const GradeRow* b) {
+      const std::int64_t left = a->final.value_or(0) * b->possible,
+                         right = b->final.value_or(0) * a->possible;
+      return left != right ? left > right : a->worth.weight * a->possible < b->worth.weight * b->possible;
+    });
+    for (std::size_t k = best; k < ranked.size(); ++k) {
+      sum.leftOut.push_back(ranked[k]->exercise);
+      std::erase(rows, ranked[k]);
+    }
+    std::ranges::sort(sum.leftOut);
+  }
+
+  void judge(const std::vector<const GradeRow*>& rows, StudentTotal& sum) const {
+    const TotalRules& rules = course_.total;
+    if (rules.passPercent && *sum.total * kWhole * kWhole < *rules.passPercent * sum.possible)
+      sum.why.push_back(fmt::format("{} of {} points are less than {} %", reports::hundredthsText(*sum.total),
+                                    reports::hundredthsText(sum.possible),
+                                    reports::hundredthsText(*rules.passPercent)));
+    std::vector<std::string> below;
+    int reached = 0;
+    for (const GradeRow* row : rows) {
+      if (!row->worth.minimum) continue;
+      if (row->reachesMinimum())
+        ++reached;
+      else
+        below.push_back(row->exercise);
+    }
+    if (!rules.passExercises && !below.empty()) sum.why.push_back("below the minimum: " + join(below, ", "));
+    if (rules.passExercises && reached < *rules.passExercises)
+      sum.why.push_back(
+          fmt::format("the minimum is reached in {} of {} exercises", reached, *rules.passExercises));
+    sum.passes = sum.why.empty();
   }
 
   // Adjustments that met no row are mistakes that somebody would wait for.
@@ -334,7 +392,7 @@ class BookMaker {
     for (const Comment& one : source_.adjustments.comments) tell(one);
   }
 
-  const std::map<std::string, std::int64_t>& weights() const { return course_.weights; }
+  const std::map<std::string, CourseExercise>& counted() const { return course_.exercises; }
 
   using Key = std::pair<std::string, std::string>;  // student, exercise
   const ClassRun& run_;
@@ -363,6 +421,10 @@ std::string_view toString(RowStatus status) {
       return "to repeat";
   }
   return "";
+}
+
+bool GradeRow::reachesMinimum() const {
+  return final.value_or(0) * kWhole * kWhole >= worth.minimum.value_or(0) * possible;
 }
 
 const GradeRow* Gradebook::row(const std::string& student, const std::string& exercise) const {

@@ -44,10 +44,12 @@ struct GradeRow {
   std::optional<std::size_t> task{};             ///< the index of what counts
   std::string handedInAs{};                      ///< the folder of it, which may be that of another member
   std::optional<grading::GradeResult> result{};  ///< as graded, without adjustments
+  CourseExercise worth{};                        ///< what the course makes of the exercise
+  int score = 0;                                 ///< of the result, in the parts that count
   std::vector<AppliedAdjustment> applied{};      ///< in order: checks, then the final points
   std::vector<Comment> comments{};               ///< by line
   std::int64_t points = 0;                       ///< after adjustments of checks, before lateness
-  std::int64_t possible = 0;
+  std::int64_t possible = 0;                     ///< in the parts that count
   Lateness late{};
   std::optional<std::int64_t> deadline{};  ///< with extension
   bool isExtended = false;
@@ -56,22 +58,29 @@ struct GradeRow {
   std::optional<std::int64_t> final{};  ///< empty: no grade
   std::int64_t submitted = 0;
   std::string timeFrom{};
+
+  /// Whether the final points reach the minimum; also without one.
+  [[nodiscard]] bool reachesMinimum() const;
 };
 
 struct StudentTotal {
   CourseStudent student{};
   std::optional<std::int64_t> total{};  ///< with weights; empty while a grading must be repeated
-  std::int64_t possible = 0;
+  std::int64_t possible = 0;            ///< without bonus exercises and those that are left out
+  std::vector<std::string> leftOut{};   ///< exercises beyond the best ones that count
+  std::optional<bool> passes{};         ///< so far; empty without a total and without rules
+  std::vector<std::string> why{};       ///< a phrase for each rule that is not met
 };
 
 /// The grades of a class.
 struct Gradebook {
   bool hasRoster = false;
-  std::vector<std::string> exercises{};  ///< those that count
-  std::vector<GradeRow> rows{};          ///< by student, then by exercise
-  std::vector<GradeRow> strangers{};     ///< what people handed in who are not on the roster
-  std::vector<StudentTotal> totals{};    ///< by student
-  std::vector<std::string> notes{};      ///< for the reader of the grades
+  bool hasBest = false, hasPassRules = false;  ///< whether totals leave exercises out, and say who passes
+  std::vector<std::string> exercises{};        ///< those that count
+  std::vector<GradeRow> rows{};                ///< by student, then by exercise
+  std::vector<GradeRow> strangers{};           ///< what people handed in who are not on the roster
+  std::vector<StudentTotal> totals{};          ///< by student
+  std::vector<std::string> notes{};            ///< for the reader of the grades
   /// The row of that student and exercise; none: nullptr.
   [[nodiscard]] const GradeRow* row(const std::string& student, const std::string& exercise) const;
   /// A course with its students and nothing else, to find people of a platform in it.
@@ -84,8 +93,9 @@ struct GradebookSource {
   Adjustments adjustments{};
   ImportTable imported{};
   std::vector<RejectedSubmission> rejected{};
-  std::map<std::string, int> points{};  ///< of each exercise, for rows without a result
-  std::string only{};                   ///< exercise; empty: all
+  std::map<std::string, int>
+      points{};        ///< of the parts of each exercise that count, for rows without a result
+  std::string only{};  ///< exercise; empty: all
 };
 
 /// Everyone on the roster gets a row for each exercise of the course that was graded. If a student and the
@@ -99,7 +109,8 @@ struct GradebookSource {
 
 /// grades.csv with a roster, or the people who are not on it.
 [[nodiscard]] std::string gradesCsv(const std::vector<GradeRow>& rows);
-/// A line per student, a column per exercise, and the weighted total.
+/// A line per student, a column per exercise, and the weighted total; by the rules of the course, what is
+/// left out and who passes.
 [[nodiscard]] std::string totalsCsv(const Gradebook& book);
 
 /// For reports of this result. Empty if there is no grade.

@@ -155,7 +155,7 @@ GradesJson rowJson(const GradeRow& row) {
   return {{"exercise", row.exercise},
           {"status", toString(row.status)},
           {"remark", row.remark},
-          {"points", row.result ? GradesJson(row.result->score) : GradesJson()},
+          {"points", row.result ? GradesJson(row.score) : GradesJson()},
           {"possible", pointsJson(row.possible)},
           {"outcome", row.result ? GradesJson(toString(row.result->outcome)) : GradesJson()},
           {"adjustments", adjustments},
@@ -175,9 +175,12 @@ GradesJson rowJson(const GradeRow& row) {
 std::string gradesJson(const Gradebook& book, const Course& course) {
   GradesJson exercises = GradesJson::array(), students = GradesJson::array(), strangers = GradesJson::array();
   for (const std::string& name : book.exercises) {
-    const auto weight = course.weights.find(name);
-    exercises.push_back(
-        {{"exercise", name}, {"weight", pointsJson(weight == course.weights.end() ? 100 : weight->second)}});
+    const CourseExercise worth = course.exercise(name);
+    exercises.push_back({{"exercise", name},
+                         {"weight", pointsJson(worth.weight)},
+                         {"parts", worth.parts},
+                         {"bonus", worth.isBonus},
+                         {"minimum_percent", pointsJson(worth.minimum)}});
   }
   for (const StudentTotal& sum : book.totals) {
     GradesJson student = whoJson(sum.student), grades = GradesJson::array();
@@ -185,6 +188,9 @@ std::string gradesJson(const Gradebook& book, const Course& course) {
       if (row.student.id == sum.student.id) grades.push_back(rowJson(row));
     student["total"] = pointsJson(sum.total);
     student["possible"] = pointsJson(sum.possible);
+    student["left_out"] = sum.leftOut;
+    student["passes"] = sum.passes ? GradesJson(*sum.passes) : GradesJson();
+    student["why_not"] = sum.why;
     student["grades"] = grades;
     students.push_back(student);
   }
@@ -250,7 +256,7 @@ std::vector<std::string> cellsOf(const GradeRow& row) {
   std::vector<std::string> cells = {who.id,    who.name,     who.email,
                                     who.group, row.exercise, std::string(toString(row.status))};
   if (row.result)
-    cells.insert(cells.end(), {fmt::format("{}", row.result->score), reports::hundredthsText(row.possible),
+    cells.insert(cells.end(), {fmt::format("{}", row.score), reports::hundredthsText(row.possible),
                                std::string(toString(row.result->outcome))});
   else
     cells.insert(cells.end(), {"", reports::hundredthsText(row.possible), ""});
@@ -271,9 +277,22 @@ std::vector<std::string> cellsOf(const GradeRow& row) {
 
 void explainChecks(const GradeRow& row, std::vector<std::string>& lines) {
   for (const grading::CheckResult& check : row.result->checks)
-    lines.push_back(fmt::format("  {}/{} {} [{}{}]: {}", check.points, check.maxPoints, check.title, check.id,
-                                check.group == grading::Group::kHidden ? ", hidden" : "",
+    lines.push_back(fmt::format("  {}/{} {} [{}{}{}]: {}", check.points, check.maxPoints, check.title,
+                                check.id, check.group == grading::Group::kHidden ? ", hidden" : "",
+                                row.worth.counts(check.part) ? "" : ", does not count",
                                 check.status ? toString(*check.status) : "not run"));
+}
+
+// What the course says about the exercise, for students, too.
+std::vector<std::string> worthSentences(const GradeRow& row) {
+  std::vector<std::string> sentences;
+  if (!row.worth.parts.empty())
+    sentences.push_back(fmt::format("Only these parts count: {}.", join(row.worth.parts, ", ")));
+  if (row.worth.isBonus) sentences.emplace_back("The exercise is a bonus: its points come on top.");
+  if (row.worth.minimum && row.final)
+    sentences.push_back(fmt::format("The minimum of {} % is {}.", reports::hundredthsText(*row.worth.minimum),
+                                    row.reachesMinimum() ? "reached" : "not reached"));
+  return sentences;
 }
 
 void explainTime(const GradeRow& row, std::vector<std::string>& lines) {
@@ -301,6 +320,8 @@ std::string totalsCsv(const Gradebook& book) {
   std::vector<std::string> headings = {"student", "name", "email", "group"};
   headings.insert(headings.end(), book.exercises.begin(), book.exercises.end());
   headings.insert(headings.end(), {"total", "possible"});
+  if (book.hasBest) headings.emplace_back("left_out");
+  if (book.hasPassRules) headings.insert(headings.end(), {"passes", "why_not"});
   std::string text = csvLine(headings);
   for (const StudentTotal& sum : book.totals) {
     std::vector<std::string> cells = {sum.student.id, sum.student.name, sum.student.email, sum.student.group};
@@ -310,6 +331,9 @@ std::string totalsCsv(const Gradebook& book) {
     }
     cells.push_back(optionalText(sum.total));
     cells.push_back(reports::hundredthsText(sum.possible));
+    if (book.hasBest) cells.push_back(join(sum.leftOut, ", "));
+    if (book.hasPassRules)
+      cells.insert(cells.end(), {!sum.passes ? "" : *sum.passes ? "yes" : "no", join(sum.why, "; ")});
     text += csvLine(cells);
   }
   return text;
@@ -322,6 +346,7 @@ std::optional<reports::Judgement> rowJudgement(const GradeRow& row) {
                                .penalty = row.late.penalty,
                                .final = *row.final,
                                .possible = row.possible};
+  judgement.changes = worthSentences(row);
   for (const AppliedAdjustment& one : row.applied) {
     judgement.changes.push_back(changeText(one));
     if (!one.adjustment.check.empty()) judgement.checks[one.adjustment.check] = one.after;
@@ -335,8 +360,8 @@ std::vector<std::string> explain(const GradeRow& row) {
   if (!row.remark.empty()) lines.push_back(fmt::format("Remark: {}", row.remark));
   if (row.task) explainTime(row, lines);
   if (row.result) {
-    lines.push_back(fmt::format("Checks: {} of {} points ({})", row.result->score, row.result->maxScore,
-                                toString(row.result->outcome)));
+    lines.push_back(fmt::format("Checks: {} of {} points ({})", row.score,
+                                reports::hundredthsText(row.possible), toString(row.result->outcome)));
     explainChecks(row, lines);
   }
   for (const AppliedAdjustment& one : row.applied)
@@ -349,6 +374,7 @@ std::vector<std::string> explain(const GradeRow& row) {
   lines.push_back(row.final ? fmt::format("Final: {} of {} points", reports::hundredthsText(*row.final),
                                           reports::hundredthsText(row.possible))
                             : fmt::format("No grade (of {} points)", reports::hundredthsText(row.possible)));
+  for (const std::string& sentence : worthSentences(row)) lines.push_back(sentence);
   return lines;
 }
 

@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/instant.h"
 #include "base/toml_table.h"
+#include "classroom/csv.h"
+#include "submission/exercise_info.h"
 
 namespace rex::classroom {
 namespace {
@@ -22,8 +25,9 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 /// Reads one file of deadlines.
 class PolicyReader {
  public:
-  PolicyReader(const TomlTable& file, const std::vector<std::string>& exercises)
-      : exercises_(exercises), top_(file) {}
+  PolicyReader(const TomlTable& file, const std::filesystem::path& folder,
+               const std::vector<std::string>& exercises)
+      : exercises_(exercises), top_(file), folder_(folder) {}
 
   LatePolicy read() const {
     LateRule all;
@@ -31,14 +35,14 @@ class PolicyReader {
     LatePolicy policy;
     for (const std::string& exercise : exercises_) policy[exercise] = all;
     const auto exercises = top_.table("exercise", "[exercise]", "a table");
-    if (!exercises) return policy;
-    for (const std::string& name : exercises->keys()) {
+    for (const std::string& name : exercises ? exercises->keys() : std::vector<std::string>{}) {
       if (!contains(exercises_, name))
         throw Error({.what = fmt::format("no exercise is called '{}'", name),
                      .where = exercises->where(name),
                      .nearest = nearestNames(name, exercises_)});
       readRule(*exercises->table(name, fmt::format("[exercise.{}]", name), "a table"), policy[name]);
     }
+    if (top_.has("extensions")) readExtensions(policy);
     return policy;
   }
 
@@ -46,7 +50,8 @@ class PolicyReader {
   static void readRule(const TomlTable& keys, LateRule& rule) {
     constexpr int kMostMinutes = 60 * 24 * 365;
     keys.refuseKeysBut({"opening", "deadline", "grace_minutes", "percent_per_day", "points_per_day",
-                        "cap_percent", "cap_points", "extensions", "weight"});
+                        "cap_percent", "cap_points", "extensions", "weight", "parts", "bonus",
+                        "minimum_percent"});
     if (keys.has("opening")) rule.opening = keys.instant("opening");
     if (keys.has("deadline")) rule.deadline = keys.instant("deadline");
     if (keys.has("grace_minutes")) rule.graceSeconds = 60 * keys.integer("grace_minutes", 0, kMostMinutes);
@@ -54,7 +59,52 @@ class PolicyReader {
     readCost(keys, "points", "percent", false, rule);
     if (const auto extensions = keys.table("extensions", "extensions", "a table"))
       for (const std::string& student : extensions->keys())
-        rule.extensions[student] = extensions->instant(student);
+        rule.extensions[student] = extensions->instant(student),
+        rule.places[student] = extensions->where(student);
+  }
+
+  // A row without an exercise is for all of them. Of several for a student, the latest counts, as for groups.
+  void readExtensions(LatePolicy& policy) const {
+    const std::filesystem::path file = folder_ / top_.text("extensions");
+    if (!std::filesystem::is_regular_file(file))
+      throw Error({.what = "no such table of extensions",
+                   .where = top_.where("extensions"),
+                   .found = file.string(),
+                   .wanted = "a CSV file with the columns student, deadline and exercise"});
+    static const CsvTable::Headings kStudent = {"student"}, kDeadline = {"deadline"}, kOf = {"exercise"};
+    const CsvTable table(file, "a table of extensions");
+    table.refuseMisspelt({kStudent, kDeadline, kOf});
+    table.require(kStudent), table.require(kDeadline);
+    table.requireWholeRows();
+    for (std::size_t row = 0; row < table.size(); ++row) {
+      const std::string student = table.text(row, kStudent), time = table.text(row, kDeadline);
+      const SourceLocation where{table.place(row)};
+      const auto deadline = parseInstant(time);
+      if (student.empty() || !deadline)
+        throw Error({.what = "not an extension",
+                     .where = where,
+                     .found = student.empty() ? "no student" : "'" + time + "'",
+                     .wanted = student.empty() ? "an id or a group"
+                                               : "a time with its zone, such as 2026-11-20T23:59:00+01:00"});
+      for (const std::string& exercise : exercisesIn(table.text(row, kOf), where)) {
+        const auto [known, isNew] = policy[exercise].extensions.emplace(student, *deadline);
+        if (isNew || known->second < *deadline)
+          known->second = *deadline, policy[exercise].places[student] = where;
+      }
+    }
+  }
+
+  std::vector<std::string> exercisesIn(const std::string& name, const SourceLocation& where) const {
+    if (name.empty()) return exercises_;
+    std::vector<submission::ExerciseInfo> known(exercises_.size());
+    for (std::size_t k = 0; k < known.size(); ++k) known[k].name = exercises_[k];
+    try {
+      return {submission::findExercise(known, name).name};
+    } catch (const UsageError& error) {
+      ErrorParts parts = error.parts();
+      parts.where = where;
+      throw Error(std::move(parts));
+    }
   }
 
   // The unit is percent or points, for both the cost per day and the cap.
@@ -81,6 +131,7 @@ class PolicyReader {
 
   const std::vector<std::string>& exercises_;
   const TomlTable& top_;
+  const std::filesystem::path& folder_;
 };
 
 }  // namespace
@@ -111,11 +162,12 @@ Lateness latenessOfHundredths(const LateRule& rule, const std::string& student, 
 LatePolicy readLatePolicy(const std::filesystem::path& file, const std::vector<std::string>& exercises) {
   const TomlTable top = TomlTable::read(file, "the file of deadlines", "a file of deadlines");
   top.refuseKeysBut(kCourseKeys);
-  return parseLatePolicy(top, exercises);
+  return parseLatePolicy(top, file.parent_path(), exercises);
 }
 
-LatePolicy parseLatePolicy(const TomlTable& file, const std::vector<std::string>& exercises) {
-  return PolicyReader(file, exercises).read();
+LatePolicy parseLatePolicy(const TomlTable& file, const std::filesystem::path& folder,
+                           const std::vector<std::string>& exercises) {
+  return PolicyReader(file, folder, exercises).read();
 }
 
 std::vector<std::string> unknownExtensions(const LatePolicy& policy,

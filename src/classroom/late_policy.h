@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/toml_table.h"
 
 namespace rex::classroom {
@@ -16,6 +17,7 @@ struct LateRule {
   std::optional<std::int64_t> opening{};
   std::optional<std::int64_t> deadline{};
   std::map<std::string, std::int64_t> extensions{};  ///< later deadlines of individual students
+  std::map<std::string, SourceLocation> places{};    ///< where each extension was read
   std::int64_t graceSeconds = 0;                     ///< lateness up to this is tolerated
   bool isPercent = true;              ///< the penalty is a percentage of the points reached; else points
   std::int64_t perDay = 0;            ///< hundredths, per day or part of a day
@@ -48,13 +50,15 @@ using LatePolicy = std::map<std::string, LateRule>;
 [[nodiscard]] LatePolicy readLatePolicy(const std::filesystem::path& file,
                                         const std::vector<std::string>& exercises);
 
-/// The same from the tables [all] and [exercise.NAME] of a file.
-[[nodiscard]] LatePolicy parseLatePolicy(const TomlTable& file, const std::vector<std::string>& exercises);
+/// The same from the tables [all] and [exercise.NAME] of a file in that folder, and the table of extensions
+/// that it names.
+[[nodiscard]] LatePolicy parseLatePolicy(const TomlTable& file, const std::filesystem::path& folder,
+                                         const std::vector<std::string>& exercises);
 
-/// All keys at the top of a course file; those of a file of deadlines are the first two.
+/// All keys at the top of a course file; those of a file of deadlines are the first three.
 inline const std::vector<std::string> kCourseKeys = {
-    "all",         "exercise", "title", "students", "student", "adjustments", "results",
-    "secret_file", "seed",     "level", "evidence", "reports", "time_zone"};
+    "all",         "exercise", "extensions", "title",    "students", "student",   "adjustments", "results",
+    "secret_file", "seed",     "level",      "evidence", "reports",  "time_zone", "total"};
 
 /// A sentence for each student with an extension who is not in `students`, as the name may be misspelt.
 [[nodiscard]] std::vector<std::string> unknownExtensions(const LatePolicy& policy,

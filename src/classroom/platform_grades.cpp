@@ -38,7 +38,7 @@ std::string sisOf(const CourseStudent& student) {
 
 std::int64_t possibleOf(const Gradebook& book, const std::string& exercise) {
   for (const GradeRow& row : book.rows)
-    if (row.exercise == exercise) return row.possible;
+    if (row.exercise == exercise && !row.worth.isBonus) return row.possible;
   return 0;
 }
 
@@ -68,7 +68,8 @@ PlatformGrades gradescopeGrades(const Gradebook& book) {
   return grades;
 }
 
-// The first blanks of the row of possible points are Canvas's own.
+// The first blanks of the row of possible points are Canvas's own. Points of an assignment with none that are
+// possible come on top there.
 PlatformGrades canvasGrades(const Gradebook& book) {
   std::vector<std::string> headings = {"Student", "ID", "SIS User ID", "SIS Login ID", "Section"},
                            possible = {"    Points Possible", "", "", "", ""};

@@ -10,6 +10,7 @@
 
 namespace rex::classroom::course_file_test {
 
+namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -18,6 +19,8 @@ class CourseFileTest : public ::testing::Test {
   static std::vector<submission::ExerciseInfo> exercises() {
     std::vector<submission::ExerciseInfo> all(2);
     all[0].name = "01-kinematics", all[1].name = "02-control";
+    all[0].parts.resize(2);
+    all[0].parts[0].id = "maps", all[0].parts[1].id = "step";
     return all;
   }
   Course read(const std::string& text) const {
@@ -68,11 +71,104 @@ section = "A"
   EXPECT_THAT(course.groups(), ElementsAre("pair"));
   EXPECT_THAT(course.members("pair"), ElementsAre("adam", "zoe"));
   EXPECT_TRUE(course.members("").empty());
-  EXPECT_EQ(course.weights.at("01-kinematics"), 250);
-  EXPECT_EQ(course.weights.at("02-control"), 100);
+  EXPECT_EQ(course.exercise("01-kinematics").weight, 250);
+  EXPECT_EQ(course.exercise("02-control").weight, 100);
   EXPECT_EQ(course.policy.at("02-control").perDay, 1000);
   EXPECT_EQ(instantText(*studentDeadline(course.policy.at("01-kinematics"), "adam")), "2026-11-27T22:59:00Z")
       << "an extension of the group";
+}
+
+TEST_F(CourseFileTest, SaysWhatEachExerciseCountsForAndWhoPasses) {
+  const Course course = read(R"(
+[all]
+minimum_percent = 40
+[total]
+best = 1
+pass_percent = 50.5
+pass_exercises = 1
+[exercise.01-kinematics]
+parts = ["step"]
+minimum_percent = 30
+[exercise.02-control]
+bonus = true
+)");
+  const CourseExercise first = course.exercise("01-kinematics"), second = course.exercise("02-control");
+  EXPECT_TRUE(first.counts("step") && !first.counts("maps") && !first.isBonus);
+  EXPECT_EQ(first.minimum, 3000) << "instead of that of all";
+  EXPECT_TRUE(second.isBonus && second.counts("any"));
+  EXPECT_FALSE(second.minimum.has_value()) << "nobody needs a bonus";
+  EXPECT_EQ(course.total.best, 1);
+  EXPECT_EQ(course.total.passPercent, 5050);
+  EXPECT_EQ(course.total.passExercises, 1);
+  EXPECT_TRUE(course.hasPassRules());
+  EXPECT_FALSE(read("[exercise.02-control]\n").hasPassRules());
+}
+
+TEST_F(CourseFileTest, RefusesRulesThatNobodyCanMeet) {
+  const std::string at = file() + ":", first = "[exercise.01-kinematics]\n",
+                    second = "[exercise.02-control]\n";
+  const std::pair<std::string, std::string> files[] = {
+      {first + "parts = [\"steps\"]\n",
+       at + "2:9: [exercise.01-kinematics]: 'parts': found 'steps', wanted some of maps, step (did you mean "
+            "'step'?)"},
+      {first + "parts = [\"step\", \"step\"]\n", "'parts': found 'step' twice"},
+      {first + "parts = []\n", "'parts': found none"},
+      {first + "bonus = 1\n", "'bonus': found 1, wanted true or false"},
+      {first + "bonus = true\nminimum_percent = 10\n",
+       at + "3:19: [exercise.01-kinematics]: 'minimum_percent': found a minimum of a bonus, wanted a bonus, "
+            "which nobody needs, or a minimum"},
+      {"[all]\nbonus = true\n" + first, at + "2:9: [all]: 'bonus': wanted it in the table of an exercise"},
+      {"[all]\nminimum_percent = 10\n",
+       "[all]: 'minimum_percent': found no tables of exercises, wanted [exercise.NAME] for each exercise "
+       "that "
+       "counts"},
+      {"[total]\nbest = 1\n", at + "2:8: [total]: 'best': found no tables of exercises"},
+      {"[total]\nbets = 1\n" + first, "unknown key 'bets' in [total]"},
+      {"[total]\nbest = 2\n" + first + second + "bonus = true\n",
+       "[total]: 'best': found 2, wanted at most 1, as many as there are exercises without bonus"},
+      {"[total]\npass_exercises = 1\n" + first,
+       "found 1, wanted at most 0, as many as there are exercises with a minimum_percent"},
+      {"[all]\nminimum_percent = 10\n[total]\nbest = 1\npass_exercises = 2\n" + first + second,
+       "[total]: 'pass_exercises': found 2, wanted at most 1, as only the best 1 count"},
+      {"[totl]\nbest = 1\n", "unknown key 'totl' in the course file"}};
+  for (const auto& [text, message] : files) EXPECT_THAT(messageFor(text), HasSubstr(message));
+}
+
+TEST_F(CourseFileTest, ReadsExtensionsFromATable) {
+  const std::string course =
+      "extensions = \"extensions.csv\"\n[[student]]\nid = \"zoe\"\ngroup = "
+      "\"pair\"\n[exercise.01-kinematics]\n"
+      "deadline = 2026-11-20T23:59:00Z\n[exercise.02-control]\ndeadline = 2026-12-04T23:59:00Z\n"
+      "[exercise.02-control.extensions]\nzoe = 2026-12-05T00:00:00Z\n";
+  const fs::path table = folder_.path() / "extensions.csv";
+  const auto deadline = [&](const char* exercise) {
+    return instantText(*studentDeadline(read(course).policy.at(exercise), "zoe"));
+  };
+  writeTextFile(table, "student,exercise,deadline\npair,01,2026-11-27T23:59:00+01:00\n");
+  EXPECT_EQ(deadline("01-kinematics"), "2026-11-27T22:59:00Z");
+  EXPECT_EQ(deadline("02-control"), "2026-12-05T00:00:00Z");
+  writeTextFile(table, "student;deadline\nzoe;2026-12-09T00:00:00Z\nzoe;2026-12-06T00:00:00Z\n");
+  EXPECT_EQ(deadline("01-kinematics"), "2026-12-09T00:00:00Z") << "for all exercises, and the latest";
+  EXPECT_EQ(deadline("02-control"), "2026-12-09T00:00:00Z");
+  EXPECT_EQ(readLatePolicy(file(), {"01-kinematics", "02-control"}).at("02-control").extensions.at("zoe"),
+            1796774400);
+  const std::string place = table.string();
+  for (const auto& [text, message] :
+       {std::pair<std::string, std::string>{
+            "student,deadline\nzoo,2026-11-27T23:59:00Z\n",
+            place + ":2: an extension for 'zoo': found nobody of this name on the roster, wanted the id of "
+                    "a student, or a group (did you mean 'zoe'?)"},
+        {"student,deadline\nzoe,tomorrow\n",
+         place + ":2: not an extension: found 'tomorrow', wanted a time with its zone"},
+        {"student,deadline\n,2026-11-27T23:59:00Z\n", ":2: not an extension: found no student"},
+        {"student,exercise,deadline\nzoe,02-contrl,2026-11-27T23:59:00Z\n", "(did you mean '02-control'?)"},
+        {"student,dedline\nzoe,2026-11-27T23:59:00Z\n", "(did you mean 'deadline'?)"},
+        {"student\nzoe\n", "wanted a column 'deadline'"}}) {
+    writeTextFile(table, text);
+    EXPECT_THAT(messageFor(course), HasSubstr(message));
+  }
+  fs::remove(table);
+  EXPECT_THAT(messageFor(course), HasSubstr(file() + ":1:14: no such table of extensions: found"));
 }
 
 TEST_F(CourseFileTest, HoldsWhatACourseIsGradedWith) {
@@ -143,7 +239,7 @@ TEST_F(CourseFileTest, NamesThePlaceOfWhatIsWrong) {
   EXPECT_THAT(messageFor("[exercise.02-control]\nweight = 0.001\n"),
               HasSubstr("'weight': wanted at least 0.01"));
   EXPECT_THAT(messageFor("[all]\nweight = 2\n"),
-              HasSubstr(at + "2:10: [all]: 'weight': wanted a weight in the table of an exercise"));
+              HasSubstr(at + "2:10: [all]: 'weight': wanted it in the table of an exercise"));
   EXPECT_THAT(messageFor("students = \"none.csv\"\n"),
               HasSubstr(at + "1:12: no such table of students: found"));
   EXPECT_REX_ERROR((readCourse("none.toml", {})), "none.toml: no such file: wanted a course file");

@@ -12,6 +12,7 @@
 
 namespace rex::classroom::gradebook_test {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -251,7 +252,7 @@ TEST(StudentCalled, IsFoundByAnyKey) {
 }
 
 TEST_F(GradebookTest, AddsWhatCountsByItsWeight) {
-  source_.course.weights = {{kEx, 250}, {"02-control", 100}, {"03-later", 100}};
+  source_.course.exercises = {{kEx, {.weight = 250}}, {"02-control", {}}, {"03-later", {}}};
   handIn("bob", 7), handIn("bob", 4, kTime, "02-control"), handIn("bob", 9, kTime, "04-other");
   const Gradebook book = made();
   EXPECT_THAT(book.exercises, ElementsAre(kEx, "02-control"));
@@ -269,6 +270,85 @@ TEST_F(GradebookTest, AddsWhatCountsByItsWeight) {
                                          "adam,Adam A.,,pair,,,0,45\nbob,,,,7,4,21.5,35\n"));
   source_.only = kEx;
   EXPECT_EQ(made().rows.size(), 4u);
+}
+
+// Of the sample's checks, "hand" of 3 points and "far" of 3 are in the part that counts.
+TEST_F(GradebookTest, CountsOnlyThePartsOfTheCourse) {
+  handIn("bob", 8);  // 3 of 3, 4 of 4, 1 of 3
+  grading::GradeResult result = sampleResult(3, 4, 1);
+  result.checks[1].part = "turns";
+  saveSample(run_.out, run_.tasks[0], result);
+  source_.course.exercises[kEx] = {.parts = {"kin"}, .minimum = 8000};
+  Adjustment turn = adjustment("bob", "turn");
+  turn.points = 0;
+  source_.adjustments.adjustments = {turn};
+  const Gradebook book = made();
+  const GradeRow graded = *book.row("bob", kEx);
+  EXPECT_EQ(graded.final, 400);
+  EXPECT_EQ(graded.possible, 600);
+  EXPECT_THAT(book.notes,
+              ElementsAre("a.toml:3:1: the check 'turn' is in part 'turns', which does not count"));
+  EXPECT_THAT(gradesCsv({graded}), HasSubstr(",graded,4,6,fail,,0,0,4,"));
+  EXPECT_THAT(reports::judgementSentences(rowJudgement(graded).value()),
+              ElementsAre("Only these parts count: kin.", "The minimum of 80 % is not reached.",
+                          "Final grade: 4 of 6 points."));
+  EXPECT_THAT(explain(graded), AllOf(Contains("Checks: 4 of 6 points (fail)"),
+                                     Contains("  4/4 Turns [turn, does not count]: pass"),
+                                     Contains("Only these parts count: kin.")));
+  const StudentResult counted = resultsByPerson(readClassResults(run_.out), book).results.at(0);
+  EXPECT_EQ(counted.result.score, 4);
+  EXPECT_EQ(counted.result.maxScore, 6);
+  EXPECT_EQ(counted.result.checks.size(), 2u);
+}
+
+TEST_F(GradebookTest, AddsABonusToThePointsButNotToThoseThatArePossible) {
+  source_.course.exercises = {{kEx, {}}, {"02-control", {.weight = 50, .isBonus = true}}};
+  handIn("bob", 9), handIn("bob", 10, kTime, "02-control");
+  const Gradebook book = made();
+  EXPECT_EQ(book.totals[1].total, 1400) << "9, and half of 10";
+  EXPECT_EQ(book.totals[1].possible, 1000);
+  EXPECT_THAT(explain(*book.row("bob", "02-control")),
+              Contains("The exercise is a bonus: its points come on top."));
+}
+
+TEST_F(GradebookTest, LeavesOutTheExercisesWithTheSmallestShares) {
+  source_.course.exercises = {{kEx, {}}, {"02-control", {}}, {"03-later", {.weight = 300}}, {"04-more", {}}};
+  source_.course.total.best = 2;
+  source_.points["03-later"] = source_.points["04-more"] = 10;
+  handIn("bob", 7), handIn("bob", 4, kTime, "02-control"), handIn("bob", 5, kTime, "03-later");
+  handIn("bob", 9, kTime, "04-more");
+  handIn("carl", 10), handIn("carl", 10, kTime, "03-later");
+  const Gradebook book = made();
+  EXPECT_THAT(book.totals[1].leftOut, ElementsAre("02-control", "03-later"));
+  EXPECT_EQ(book.totals[1].total, 1600);
+  EXPECT_EQ(book.totals[1].possible, 2000);
+  EXPECT_THAT(book.totals[2].leftOut, ElementsAre("02-control", "04-more")) << "what is missing";
+  EXPECT_EQ(book.totals[2].total, 4000);
+  EXPECT_EQ(book.totals[2].possible, 4000);
+  EXPECT_THAT(totalsCsv(book), HasSubstr("\ncarl,,,,10,,10,,40,40,\"02-control, 04-more\"\n"));
+  EXPECT_THAT(totalsCsv(book), HasSubstr("total,possible,left_out\n"));
+}
+
+TEST_F(GradebookTest, SaysWhoPassesAndWhyNot) {
+  source_.course.exercises = {{kEx, {.minimum = 5000}}, {"02-control", {.minimum = 3000}}};
+  source_.course.total = {.passPercent = 6000};
+  handIn("bob", 7), handIn("bob", 5, kTime, "02-control");
+  handIn("carl", 4), handIn("carl", 10, kTime, "02-control");
+  handIn("zoe", 5), handIn("zoe", 6, kTime, "02-control");
+  Gradebook book = made();
+  EXPECT_EQ(totalsCsv(book),
+            "student,name,email,group,01-kinematics,02-control,total,possible,passes,why_not\n"
+            "adam,Adam A.,,pair,5,6,11,20,no,11 of 20 points are less than 60 %\n"
+            "bob,,,,7,5,12,20,yes,\n"
+            "carl,,,,4,10,14,20,no,below the minimum: 01-kinematics\n"
+            "zoe,,,pair,5,6,11,20,no,11 of 20 points are less than 60 %\n");
+  source_.course.total = {.passExercises = 1};
+  book = made();
+  EXPECT_TRUE(book.totals[2].passes.value()) << "one exercise is enough";
+  source_.course.total = {.passExercises = 2};
+  EXPECT_THAT(made().totals[2].why, ElementsAre("the minimum is reached in 1 of 2 exercises"));
+  run_.tasks[0].seed = 3;
+  EXPECT_FALSE(made().totals[1].passes.has_value()) << "a grading must be repeated";
 }
 
 TEST_F(GradebookTest, AppliesAdjustmentsOfChecksBeforeAndOfTheTotalAfterLateness) {
@@ -337,7 +417,7 @@ TEST_F(GradebookTest, AddsUpTheAdjustmentsOfOneCheck) {
 }
 
 TEST_F(GradebookTest, RoundsHalvesOfWeightedTotalsUp) {
-  source_.course.weights = {{kEx, 33}};
+  source_.course.exercises = {{kEx, {.weight = 33}}};
   for (const auto& [points, add, total] : {std::tuple(5, 0, 165), {5, 5, 167}, {5, 1, 165}, {5, 2, 166}}) {
     run_.tasks.clear();
     handIn("bob", points);

@@ -53,6 +53,24 @@ TEST_F(PlatformGradesTest, WritesTheColumnsOfGradescopeAndCanvas) {
               ElementsAre("adam 01-kinematics: no grade yet (the result is for other inputs)"));
 }
 
+TEST_F(PlatformGradesTest, FollowThePartsAndTheBonusOfTheCourse) {
+  grading::GradeResult result = sampleResult(3, 4, 0);
+  result.checks[1].part = "turns";
+  saveSample(run_.out, run_.tasks[0], result);
+  source_.course.exercises[kEx] = {.parts = {"turns"}};
+  source_.points[kEx] = 4;
+  EXPECT_THAT(canvasGrades(book()).csv, HasSubstr("Points Possible,,,,,4\nAdam =1+2,,4711,adam,,4\n"));
+  const std::string head = "Identifier,Email address,Grade,Maximum Grade\nA 1,adam@uni.example,,";
+  EXPECT_THAT(worksheet(head + "4.00\n").csv, HasSubstr(",4,4.00\n"));
+  EXPECT_THAT(messageOf([&] { worksheet(head + "10.00\n"); }),
+              HasSubstr("found 10.00, wanted 4, the points of the exercise, or --scale"));
+  source_.course.exercises[kEx].isBonus = true;
+  EXPECT_THAT(canvasGrades(book()).csv, HasSubstr("Points Possible,,,,,0\nAdam =1+2,,4711,adam,,4\n"))
+      << "as Canvas adds points on top";
+  EXPECT_THAT(gradescopeGrades(book()).csv, HasSubstr("adam@uni.example,4,4,0\n"));
+  EXPECT_THAT(canvasGrades(book()).notes, IsEmpty());
+}
+
 TEST_F(PlatformGradesTest, TellWhoHasMoreThanTheMaximumBeforeTheUpload) {
   source_.adjustments.adjustments = {{.students = {"adam"},
                                       .exercise = kEx,

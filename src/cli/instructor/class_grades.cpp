@@ -44,8 +44,8 @@ ExitCode tellRoster(const classroom::Course& course) {
 
 std::vector<std::string> courseExercises(const Project& project, const classroom::Course& course) {
   std::vector<std::string> names = project.exerciseNames();
-  if (!course.weights.empty())
-    std::erase_if(names, [&](const std::string& one) { return !course.weights.contains(one); });
+  if (!course.exercises.empty())
+    std::erase_if(names, [&](const std::string& one) { return !course.exercises.contains(one); });
   return names;
 }
 
@@ -55,7 +55,9 @@ classroom::GradebookSource readGradebookSource(const Project& project, const Cla
                                     .imported = classroom::importTableIn(run.out),
                                     .rejected = classroom::readRejected(run.out / kRejectedFile),
                                     .only = only};
-  for (const ExerciseInfo& exercise : project.exercises()) source.points[exercise.name] = exercise.points();
+  for (const ExerciseInfo& exercise : project.exercises())
+    for (const submission::ExercisePart& part : exercise.parts)
+      if (source.course.exercise(exercise.name).counts(part.id)) source.points[exercise.name] += part.points;
   const fs::path adjustments = files.adjustments.empty() ? source.course.adjustments : files.adjustments;
   if (!adjustments.empty())
     source.adjustments = classroom::readAdjustments(
