@@ -147,6 +147,8 @@ class CourseReader {
     if (top_.has("title")) course_.title = top_.text("title");
     if (top_.has("results")) course_.results = folder_ / top_.text("results");
     if (top_.has("adjustments")) course_.adjustments = folder_ / top_.text("adjustments");
+    for (const char* key : {"students", "extensions", "adjustments"})
+      if (top_.has(key)) course_.files.push_back(folder_ / top_.text(key));
     readSettings(course_.settings);
     if (top_.has("time_zone")) course_.timeZone = zoneAt("time_zone");
     if (use_ == RosterUse::kRead) readStudents();

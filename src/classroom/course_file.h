@@ -63,8 +63,9 @@ struct Course {
   LatePolicy policy{};                                ///< extensions of groups are listed for each member
   std::map<std::string, CourseExercise> exercises{};  ///< of the course, by full name; empty: all there are
   TotalRules total{};
-  std::filesystem::path results{};      ///< where results go; empty: not said
-  std::filesystem::path adjustments{};  ///< empty: none
+  std::filesystem::path results{};             ///< where results go; empty: not said
+  std::filesystem::path adjustments{};         ///< empty: none
+  std::vector<std::filesystem::path> files{};  ///< that the course file names and people write
   GradingSettings settings{};
   std::string timeZone{};  ///< in which times are shown to people; empty: UTC
 

@@ -30,6 +30,7 @@
 #include "cli/command_table.h"
 #include "cli/instructor/class_grades.h"
 #include "cli/instructor/collect.h"
+#include "cli/instructor/forget.h"
 #include "cli/instructor/grading_options_internal.h"
 #include "cli/json_internal.h"
 #include "cli/option_table_internal.h"
@@ -71,6 +72,9 @@ struct GradeManyOptions {
   std::string reports{};               ///< see parseReportFormats(): written beside each result
   fs::path similar{};                  ///< folder for pages of similar submissions; empty: none
   int similarPercent = kSimilarPercent;
+  std::string forget{},
+      forgetBefore{};  ///< only list, or remove, what is kept of this student, before this day
+  [[nodiscard]] bool forgets() const { return !forget.empty() || !forgetBefore.empty(); }
 };
 
 using classroom::Task;
@@ -540,6 +544,14 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   if (options.out.empty())
     throw UsageError(
         {.what = "--out", .found = "no folder", .wanted = "one for the results, here or in the course file"});
+  if (options.forgets())
+    return forgetPeople(project, {.handedIn = options.folder,
+                                  .out = options.out,
+                                  .similar = options.similar,
+                                  .files = options.files,
+                                  .student = options.forget,
+                                  .before = options.forgetBefore,
+                                  .removes = options.acceptFewer});
   if (!options.explain.empty())
     return explainResults(project, {.out = options.out,
                                     .manifest = options.manifest,
@@ -578,7 +590,8 @@ void addGrade(CLI::App* command, Action& action) {
       "  scripts/rex grade handed-in -o results --manifest tasks.tsv\n"
       "  scripts/rex grade --manifest tasks.tsv --task 7 -o results\n"
       "  scripts/rex grade --collect -o results --course course.toml\n"
-      "  scripts/rex grade --explain zoe 01 --course course.toml -o results\n\n"
+      "  scripts/rex grade --explain zoe 01 --course course.toml -o results\n"
+      "  scripts/rex grade handed-in --forget zoe --course course.toml -o results\n\n"
       "DIR holds STUDENT/EXERCISE/main.cpp. A second run grades only what has changed.\n" +
       std::string(kGradingCodes));
   command->add_option("DIR", options->folder, "folder of submissions")->type_name("");
@@ -591,16 +604,17 @@ void addGrade(CLI::App* command, Action& action) {
               seedRow(options->seed, "seed of the random cases")});
   addSecret(command, options->secret);
   addClassFiles(command, options->files);
-  addOptions(command,
-             {{"--workers", options->workers, "DIR",
-               "keep compiled programs here, so that other seeds need no new compilation"},
-              {"--submitted", options->submitted, "FILE.csv",
-               "times of submission: columns student, submitted, exercise (default: times of the files)"},
-              {"--student", options->student, "ID", "only grade this one, also with another --seed"},
-              {"--regrade", options->regrade, "also grade what has a valid result, or was graded otherwise"},
-              {"--accept", options->acceptFewer,
-               "also take results in which the same file has fewer points than before"},
-              {"--evidence", options->evidence, "keep pictures and replays of failed visible checks"}});
+  addOptions(
+      command,
+      {{"--workers", options->workers, "DIR",
+        "keep compiled programs here, so that other seeds need no new compilation"},
+       {"--submitted", options->submitted, "FILE.csv",
+        "times of submission: columns student, submitted, exercise (default: times of the files)"},
+       {"--student", options->student, "ID", "only grade this one, also with another --seed"},
+       {"--regrade", options->regrade, "also grade what has a valid result, or was graded otherwise"},
+       {"--accept", options->acceptFewer,
+        "also take results in which the same file has fewer points than before; with --forget: remove"},
+       {"--evidence", options->evidence, "keep pictures and replays of failed visible checks"}});
   addReport(command, options->reports);
   const auto shown = addOptions(
       command,
@@ -618,10 +632,19 @@ void addGrade(CLI::App* command, Action& action) {
         "only make the tables from the results (--manifest: of these tasks), and name what is missing"}},
       "For clusters");
   parts[1]->needs(parts[0])->excludes(parts[2]);
+  const auto forget = addOptions(
+      command,
+      {{"--forget", options->forget, "ID", "list what is kept about this student; with --accept, remove it"},
+       {"--forget-before", options->forgetBefore, "DATE",
+        "the same for all that was handed in before this day"}},
+      "What is kept about people");
+  forget[0]->excludes(forget[1])->excludes(shown[1]);
+  forget[1]->excludes(shown[1]);
+  for (CLI::Option* part : parts) part->excludes(forget[0])->excludes(forget[1]);
   addExplain(command, options->explain);
   command->callback([&action, options] {
     const bool needsNone = !options->explain.empty() || options->task > 0 || options->collect;
-    if (options->folder.empty() && !needsNone) throw CLI::RequiredError("DIR");
+    if (options->folder.empty() && !needsNone && !options->forgets()) throw CLI::RequiredError("DIR");
     if (!options->folder.empty() && needsNone)
       throw UsageError({.what = "DIR has no effect with --task, --collect and --explain"});
     action = [options](const Project& p) { return gradeMany(p, *options); };

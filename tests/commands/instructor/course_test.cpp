@@ -81,6 +81,11 @@ author = "A. Tutor"
     arguments.insert(arguments.end(), more.begin(), more.end());
     return rex(arguments);
   }
+  Ended collectWithout(std::vector<std::string> more) const {
+    more.insert(more.begin(), "grade");
+    more.insert(more.end(), {"-o", results().string(), "--course", course()});
+    return rex(more);
+  }
   Ended exported(const std::string& target, std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments = {"export", target, results().string(),        "--course",
                                           course(), "-o",   (root() / target).string()};
@@ -142,6 +147,33 @@ TEST_F(CourseTest, ExplainsAGrade) {
   replace(course(), "Carl C.", "Yan, Y.");
   EXPECT_THAT(flat(collect({"--explain", "yan, y.", "98"}).error),
               HasSubstr("several students are called 'yan, y.': wanted one of the ids carl, yan"));
+}
+
+TEST_F(CourseTest, ForgetsOnePersonOrAnOldTerm) {
+  EXPECT_EQ(collect().code, 0);
+  const auto forget = [&](std::vector<std::string> more) { return collectWithout(std::move(more)); };
+  const Ended listed = forget({"--forget", "=1+2"});
+  EXPECT_EQ(listed.code, 2) << listed.error;
+  EXPECT_THAT(flat(listed.output),
+              AllOf(HasSubstr("To be removed"), HasSubstr("results/adam"),
+                    HasSubstr("tasks.tsv: rows of this table"), HasSubstr("Lines for you to take out (3)"),
+                    HasSubstr("course.toml:8"), HasSubstr("Nothing is removed yet: with --accept, it is.")));
+  EXPECT_TRUE(fs::exists(results() / "adam"));
+  EXPECT_THAT(flat(forget({"--forget", "adam", "--accept"}).output),
+              HasSubstr("Copies elsewhere stay: exports, backups, platforms."));
+  EXPECT_FALSE(fs::exists(results() / "adam"));
+  EXPECT_THAT(fileText(results() / "grades.csv"),
+              AllOf(HasSubstr("\nadam,'=1+2,,,98-template,missing,"), HasSubstr("\nzoe,")));
+  EXPECT_THAT(flat(forget({"--forget", "zoe"}).output), HasSubstr("it counts for yan, too"));
+  EXPECT_THAT(
+      flat(forget({"--forget", "dorra"}).error),
+      HasSubstr("--forget: nobody is called 'dorra': wanted the id, number, e-mail, name or folder of "
+                "a student (did you mean 'dora'?)"));
+  EXPECT_THAT(flat(forget({"--forget-before", "2026-13-01"}).error),
+              HasSubstr("--forget-before: found '2026-13-01', wanted a day such as 2026-03-31"));
+  EXPECT_THAT(flat(forget({"--forget-before", "2020-01-01"}).output), HasSubstr("Nothing is to be removed."));
+  EXPECT_EQ(forget({"--forget-before", "2024-01-01", "--accept"}).code, 0);
+  EXPECT_FALSE(fs::exists(results() / "zoe") || fs::exists(results() / "grades.csv"));
 }
 
 // Reports say what people and lateness make of a result; results.json stays as it is.
