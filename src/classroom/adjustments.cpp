@@ -16,16 +16,18 @@ constexpr double kMostPoints = 1000;
 class AdjustmentReader {
  public:
   AdjustmentReader(const std::filesystem::path& file, const Course& course,
-                   const std::vector<submission::ExerciseInfo>& exercises)
+                   const std::vector<submission::ExerciseInfo>& exercises, const BlindIds& blind)
       : course_(course),
         exercises_(exercises),
+        blind_(blind),
         top_(TomlTable::read(file, "the file of adjustments", "a file of adjustments")) {}
 
   Adjustments read() const {
-    top_.refuseKeysBut({"adjustment", "comment"});
+    top_.refuseKeysBut({"adjustment", "comment", "complaint"});
     Adjustments all;
     for (const TomlTable& table : top_.tables("adjustment")) all.adjustments.push_back(adjustment(table));
     for (const TomlTable& table : top_.tables("comment")) all.comments.push_back(comment(table));
+    for (const TomlTable& table : top_.tables("complaint")) all.complaints.push_back(complaint(table));
     return all;
   }
 
@@ -71,6 +73,17 @@ class AdjustmentReader {
     return read;
   }
 
+  Complaint complaint(const TomlTable& table) const {
+    table.refuseKeysBut({"student", "group", "exercise", "text", "date", "answer"});
+    Complaint read{.students = students(table),
+                   .exercise = exercise(table),
+                   .text = table.text("text"),
+                   .date = table.day("date"),
+                   .where = table.where("text")};
+    if (table.has("answer")) read.answer = table.text("answer");
+    return read;
+  }
+
   std::vector<std::string> students(const TomlTable& table) const {
     if (table.has("student") == table.has("group"))
       throw Error({.what = "whom it is about",
@@ -79,6 +92,12 @@ class AdjustmentReader {
                    .wanted = "one of them"});
     if (table.has("student")) {
       const std::string id = table.text("student");
+      if (const auto known = blind_.find(id); known != blind_.end()) return {known->second};
+      if (id.starts_with("blind-") && course_.student(id) == nullptr && blind_.empty())
+        throw Error({.what = fmt::format("the student '{}'", id),
+                     .where = table.where("student"),
+                     .found = "an id without a name",
+                     .wanted = "the secret_file of the course, which leads to the student"});
       std::vector<std::string> known = course_.ids();
       for (const RosterFault& fault : course_.faults) known.push_back(fault.student.id);
       requireKnown(id, known, "student", table.where("student"));
@@ -112,14 +131,15 @@ class AdjustmentReader {
 
   const Course& course_;
   const std::vector<submission::ExerciseInfo>& exercises_;
+  const BlindIds& blind_;
   TomlTable top_;
 };
 
 }  // namespace
 
 Adjustments readAdjustments(const std::filesystem::path& file, const Course& course,
-                            const std::vector<submission::ExerciseInfo>& exercises) {
-  return AdjustmentReader(file, course, exercises).read();
+                            const std::vector<submission::ExerciseInfo>& exercises, const BlindIds& blind) {
+  return AdjustmentReader(file, course, exercises, blind).read();
 }
 
 }  // namespace rex::classroom

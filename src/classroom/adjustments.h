@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,14 +33,30 @@ struct Comment {
   SourceLocation where{};
 };
 
+/// What a student objects to.
+struct Complaint {
+  std::vector<std::string> students{};
+  std::string exercise{};
+  std::string text{}, date{};
+  std::string answer{};  ///< empty: it is open
+  SourceLocation where{};
+};
+
 struct Adjustments {
   std::vector<Adjustment> adjustments{};  ///< in the order of the file, in which they are applied
   std::vector<Comment> comments{};
+  std::vector<Complaint> complaints{};
+  std::vector<std::string> conflicts{};  ///< between tutors, a sentence for each: see mergeAdjustments()
+  std::vector<std::string> notes{};      ///< for the reader of the grades
 };
+
+/// Ids of students by what tutors see instead: see blindId().
+using BlindIds = std::map<std::string, std::string>;
 
 /// Reads a file of adjustments (share/doc/grading.md) for the students of a course. Throws Error with
 /// the position for malformed files, and for students, groups and exercises that do not exist.
 [[nodiscard]] Adjustments readAdjustments(const std::filesystem::path& file, const Course& course,
-                                          const std::vector<submission::ExerciseInfo>& exercises);
+                                          const std::vector<submission::ExerciseInfo>& exercises,
+                                          const BlindIds& blind = {});
 
 }  // namespace rex::classroom

@@ -157,6 +157,7 @@ class CourseReader {
     course_.policy = parseLatePolicy(top_, folder_, names);
     readExercises();
     if (const auto total = top_.table("total", "[total]", "a table")) readTotal(*total);
+    for (const TomlTable& table : top_.tables("tutor")) readTutor(table);
     for (auto& [exercise, rule] : course_.policy) {
       requireExtensions(rule);
       giveToMembers(rule);
@@ -297,6 +298,38 @@ class CourseReader {
                    .where = keys.where("pass_exercises"),
                    .found = fmt::format("{}", *rules.passExercises),
                    .wanted = fmt::format("at most {}, as only the best {} count", *rules.best, *rules.best)});
+  }
+
+  void readTutor(const TomlTable& table) {
+    table.refuseKeysBut({"name", "section", "adjustments"});
+    Tutor tutor{.name = table.text("name")};
+    for (const Tutor& one : course_.tutors)
+      if (one.name == tutor.name || (table.has("section") && one.section == table.text("section")))
+        throw Error({.what = fmt::format("a second [[tutor]] of the {} '{}'",
+                                         one.name == tutor.name ? "name" : "section",
+                                         one.name == tutor.name ? one.name : one.section),
+                     .where = table.where(one.name == tutor.name ? "name" : "section"),
+                     .wanted = "one"});
+    if (table.has("section")) tutor.section = sectionAt(table);
+    if (table.has("adjustments")) {
+      tutor.adjustments = folder_ / table.text("adjustments");
+      course_.files.push_back(tutor.adjustments);
+    }
+    course_.tutors.push_back(std::move(tutor));
+  }
+
+  std::string sectionAt(const TomlTable& table) const {
+    std::string section = table.text("section");
+    std::vector<std::string> known;
+    for (const CourseStudent& student : course_.students)
+      if (!student.section.empty()) known.push_back(student.section);
+    for (const RosterFault& fault : course_.faults) known.push_back(fault.student.section);
+    if (course_.hasRoster() && std::find(known.begin(), known.end(), section) == known.end())
+      throw Error({.what = fmt::format("no section '{}'", section),
+                   .where = table.where("section"),
+                   .wanted = "a section of the roster",
+                   .nearest = nearestNames(section, known)});
+    return section;
   }
 
   // An extension for a name that nobody has is one that somebody misses.

@@ -47,6 +47,13 @@ struct CourseExercise {
   [[nodiscard]] bool counts(const std::string& part) const;
 };
 
+/// Somebody who grades a share of the class.
+struct Tutor {
+  std::string name{};
+  std::string section{};  ///< of the roster, whose students are the tutor's; empty: an even share
+  std::filesystem::path adjustments{};  ///< that the tutor writes; empty: none
+};
+
 /// What the total is made of, and who passes.
 struct TotalRules {
   std::optional<int> best{};                  ///< only so many exercises count, for each student the best
@@ -63,6 +70,7 @@ struct Course {
   LatePolicy policy{};                                ///< extensions of groups are listed for each member
   std::map<std::string, CourseExercise> exercises{};  ///< of the course, by full name; empty: all there are
   TotalRules total{};
+  std::vector<Tutor> tutors{};                 ///< in the order of the file
   std::filesystem::path results{};             ///< where results go; empty: not said
   std::filesystem::path adjustments{};         ///< empty: none
   std::vector<std::filesystem::path> files{};  ///< that the course file names and people write
@@ -84,8 +92,8 @@ enum class RosterUse { kRead, kLeave };
 
 /// Paths in the file are relative to its folder. A row of the roster that is malformed, without id or with
 /// that of another becomes a fault. Throws Error with file, line and column for malformed files, unknown
-/// exercises and parts, rules that nobody can meet, and extensions for nobody. kLeave: as if there were no
-/// roster.
+/// exercises and parts, rules that nobody can meet, and extensions and sections of nobody. kLeave: as if
+/// there were no roster.
 [[nodiscard]] Course readCourse(const std::filesystem::path& file,
                                 const std::vector<submission::ExerciseInfo>& exercises,
                                 RosterUse roster = RosterUse::kRead);

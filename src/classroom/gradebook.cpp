@@ -44,6 +44,9 @@ class BookMaker {
   Gradebook make() {
     book_.hasRoster = source_.course.hasRoster();
     book_.hasBest = course_.total.best.has_value(), book_.hasPassRules = course_.hasPassRules();
+    for (const std::vector<std::string>* told : {&source_.adjustments.conflicts, &source_.adjustments.notes})
+      book_.notes.insert(book_.notes.end(), told->begin(), told->end());
+    book_.conflicts = static_cast<int>(source_.adjustments.conflicts.size());
     chooseExercises();
     assignTasks();
     addFaults();

@@ -81,6 +81,7 @@ struct Gradebook {
   std::vector<GradeRow> strangers{};           ///< what people handed in who are not on the roster
   std::vector<StudentTotal> totals{};          ///< by student
   std::vector<std::string> notes{};            ///< for the reader of the grades
+  int conflicts = 0;                           ///< between tutors, which are among the notes
   /// The row of that student and exercise; none: nullptr.
   [[nodiscard]] const GradeRow* row(const std::string& student, const std::string& exercise) const;
   /// A course with its students and nothing else, to find people of a platform in it.

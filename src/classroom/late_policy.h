@@ -58,7 +58,7 @@ using LatePolicy = std::map<std::string, LateRule>;
 /// All keys at the top of a course file; those of a file of deadlines are the first three.
 inline const std::vector<std::string> kCourseKeys = {
     "all",         "exercise", "extensions", "title",    "students", "student",   "adjustments", "results",
-    "secret_file", "seed",     "level",      "evidence", "reports",  "time_zone", "total"};
+    "secret_file", "seed",     "level",      "evidence", "reports",  "time_zone", "total",       "tutor"};
 
 /// A sentence for each student with an extension who is not in `students`, as the name may be misspelt.
 [[nodiscard]] std::vector<std::string> unknownExtensions(const LatePolicy& policy,

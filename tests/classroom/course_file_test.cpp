@@ -134,6 +134,25 @@ TEST_F(CourseFileTest, RefusesRulesThatNobodyCanMeet) {
   for (const auto& [text, message] : files) EXPECT_THAT(messageFor(text), HasSubstr(message));
 }
 
+TEST_F(CourseFileTest, NamesTutorsWithTheirShares) {
+  const std::string people = "[[student]]\nid = \"zoe\"\nsection = \"south\"\n",
+                    tutor = "[[tutor]]\nname = \"Ann\"\n";
+  const Course course =
+      read(people + tutor + "adjustments = \"ann.toml\"\n[[tutor]]\nname = \"Ben\"\nsection = \"south\"\n");
+  ASSERT_EQ(course.tutors.size(), 2u);
+  EXPECT_EQ(course.tutors[0].adjustments, folder_.path() / "ann.toml");
+  EXPECT_EQ(course.tutors[1].section, "south");
+  EXPECT_THAT(course.files, ElementsAre(folder_.path() / "ann.toml"));
+  EXPECT_THAT(
+      messageFor(people + tutor + "section = \"sout\"\n"),
+      HasSubstr(file() + ":6:11: no section 'sout': wanted a section of the roster (did you mean 'south'?)"));
+  EXPECT_THAT(messageFor(tutor + tutor), HasSubstr(":4:8: a second [[tutor]] of the name 'Ann': wanted one"));
+  const std::string south = "section = \"south\"\n";
+  EXPECT_THAT(messageFor(people + tutor + south + "[[tutor]]\nname = \"Ben\"\n" + south),
+              HasSubstr("a second [[tutor]] of the section 'south': wanted one"));
+  EXPECT_THAT(messageFor("[[tutor]]\nnam = \"x\"\n"), HasSubstr("'name'"));
+}
+
 TEST_F(CourseFileTest, ReadsExtensionsFromATable) {
   const std::string course =
       "extensions = \"extensions.csv\"\n[[student]]\nid = \"zoe\"\ngroup = "

@@ -21,6 +21,7 @@
 #include "classroom/grade_task.h"
 #include "classroom/gradebook_text.h"
 #include "classroom/similar.h"
+#include "classroom/tutors.h"
 #include "cli/instructor/collect.h"
 #include "cli/json_internal.h"
 #include "cli/terminal.h"
@@ -49,6 +50,30 @@ std::vector<std::string> courseExercises(const Project& project, const classroom
   return names;
 }
 
+namespace {
+
+// Those of the course and of its tutors, as one.
+classroom::Adjustments readAllAdjustments(const Project& project, const classroom::Course& course,
+                                          const ClassFiles& files) {
+  const std::vector<ExerciseInfo> exercises = project.exercises();
+  classroom::BlindIds blind;
+  if (!course.settings.secret.empty() && fs::exists(course.settings.secret))
+    blind = classroom::blindIds(classroom::classSecret(course.settings.secret), course);
+  const fs::path own = files.adjustments.empty() ? course.adjustments : files.adjustments;
+  classroom::Adjustments all;
+  if (!own.empty()) all = classroom::readAdjustments(own, course, exercises, blind);
+  std::vector<std::pair<std::string, classroom::Adjustments>> ofTutors;
+  for (const classroom::Tutor& tutor : course.tutors)
+    if (!tutor.adjustments.empty() && fs::exists(tutor.adjustments))
+      ofTutors.emplace_back(tutor.name,
+                            classroom::readAdjustments(tutor.adjustments, course, exercises, blind));
+    else if (!tutor.adjustments.empty())
+      all.notes.push_back(fmt::format("{} has not written {} yet", tutor.name, tutor.adjustments.string()));
+  return classroom::mergeAdjustments(std::move(all), ofTutors);
+}
+
+}  // namespace
+
 classroom::GradebookSource readGradebookSource(const Project& project, const ClassFiles& files,
                                                const classroom::ClassRun& run, const std::string& only) {
   classroom::GradebookSource source{.course = readClassCourse(project, files),
@@ -58,10 +83,8 @@ classroom::GradebookSource readGradebookSource(const Project& project, const Cla
   for (const ExerciseInfo& exercise : project.exercises())
     for (const submission::ExercisePart& part : exercise.parts)
       if (source.course.exercise(exercise.name).counts(part.id)) source.points[exercise.name] += part.points;
-  const fs::path adjustments = files.adjustments.empty() ? source.course.adjustments : files.adjustments;
-  if (!adjustments.empty())
-    source.adjustments = classroom::readAdjustments(
-        adjustments, classroom::withStudents(source.course, run.tasks, source.imported), project.exercises());
+  source.adjustments =
+      readAllAdjustments(project, classroom::withStudents(source.course, run.tasks, source.imported), files);
   return source;
 }
 
@@ -115,6 +138,34 @@ ExitCode explainResults(const Project& project, const ExplainOptions& options) {
     say(dump(Json{{"student", id}, {"exercise", name}, {"lines", lines}}));
   else
     for (const std::string& line : lines) say(wrap(escapeForTerminal(line), 2, 0));
+  return ExitCode::kFull;
+}
+
+ExitCode listComplaints(const Project& project, const fs::path& results, const ClassFiles& files) {
+  const classroom::ClassRun run = runIn(results);
+  const classroom::GradebookSource source = readGradebookSource(project, files, run);
+  const classroom::Gradebook book = classroom::makeGradebook(run, source);
+  classroom::Course everyone = book.everyone();
+  everyone.tutors = source.course.tutors;
+  const auto shares = classroom::tutorShares(everyone);
+  std::vector<const classroom::Complaint*> open;
+  for (const classroom::Complaint& one : source.adjustments.complaints)
+    if (one.answer.empty()) open.push_back(&one);
+  std::ranges::stable_sort(open, {}, [](const classroom::Complaint* one) { return one->date; });
+  for (const classroom::Complaint* one : open)
+    for (const std::string& id : one->students) {
+      const auto tutor = shares.find(id);
+      say(wrap(escapeForTerminal(fmt::format("{} {}, {} ({}{}): {}", id, one->exercise, one->date,
+                                             tutor == shares.end() ? "" : tutor->second + ", ",
+                                             toString(one->where), one->text)),
+               2, 0));
+      const classroom::GradeRow* row = book.row(id, one->exercise);
+      for (const std::string& line :
+           row == nullptr ? std::vector<std::string>{"no grade yet"} : classroom::explain(*row))
+        say("  " + wrap(escapeForTerminal(line), 4, 2));
+      say();
+    }
+  say(fmt::format("{} open, {} answered", open.size(), source.adjustments.complaints.size() - open.size()));
   return ExitCode::kFull;
 }
 

@@ -59,6 +59,11 @@ struct ExplainOptions {
 /// like runIn().
 ExitCode explainResults(const Project& project, const ExplainOptions& options);
 
+/// Prints each complaint without an answer, the oldest first, with the grade's explanation below. Throws like
+/// runIn().
+ExitCode listComplaints(const Project& project, const std::filesystem::path& results,
+                        const ClassFiles& files);
+
 /// Throws UsageError if one of the folders is in the other one: files written there would be taken for
 /// submissions or results. `option` names the first.
 void requireApart(const std::string& option, const std::filesystem::path& folder,

@@ -148,7 +148,8 @@ ExitCode collectResults(const Project& project, const CollectOptions& options) {
   if (options.json) say(collectJson(run));
   note(fmt::format("{} tasks. Table: {}", run.tasks.size(), shown(options.out / "grades.csv")));
   if (!complete) return ExitCode::kGraderFault;
-  return held > 0 ? ExitCode::kBelow : roster;
+  if (held > 0) return ExitCode::kBelow;
+  return book.conflicts > 0 ? ExitCode::kNotGradable : roster;
 }
 
 void writeReports(const ClassRun& run, const std::vector<reports::ReportFormat>& reports,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -6,9 +7,11 @@
 
 #include "base/error.h"
 #include "base/folders.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "classroom/gradebook_text.h"
 #include "classroom/platform_grades.h"
+#include "classroom/tutors.h"
 #include "cli/command_line_internal.h"
 #include "cli/command_table.h"
 #include "cli/instructor/class_grades.h"
@@ -36,6 +39,8 @@ struct ExportOptions {
   std::string exercise{};  ///< empty: all
   fs::path worksheet{};    ///< of Moodle; empty: none
   bool scale = false;
+  std::string tutor{};  ///< only this one's share; empty: everybody
+  bool blind = false;   ///< ids without names
 };
 
 /// What all exports are made of.
@@ -58,7 +63,40 @@ Export read(const Project& project, const ExportOptions& options) {
                       .found = only.empty() ? "no grades" : "no grades for " + only,
                       .wanted = "an exercise that was handed in and graded"});
   for (const std::string& sentence : all.book.notes) note(wrap(escapeForTerminal(sentence), 2, 0));
+  if (all.book.conflicts > 0) all.roster = ExitCode::kNotGradable;
   return all;
+}
+
+// The rows of a tutor's students. Whom nobody looks at is told.
+void keepShare(Export& all, const std::string& name) {
+  std::vector<std::string> known, nobodys;
+  for (const classroom::Tutor& tutor : all.course.tutors) known.push_back(tutor.name);
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw UsageError({.what = "--tutor",
+                      .found = "'" + escapeForTerminal(name) + "'",
+                      .wanted = known.empty() ? "tables [[tutor]] in the course file" : join(known, ", "),
+                      .nearest = nearestNames(name, known)});
+  classroom::Course everyone = all.book.everyone();
+  everyone.tutors = all.course.tutors;
+  const auto shares = classroom::tutorShares(everyone);
+  for (const classroom::CourseStudent& student : everyone.students)
+    if (!shares.contains(student.id)) nobodys.push_back(student.id);
+  if (!nobodys.empty())
+    note(wrap(escapeForTerminal(fmt::format("in nobody's share: {}", join(nobodys, ", "))), 2, 0));
+  std::erase_if(all.book.rows, [&](const classroom::GradeRow& row) {
+    const auto tutor = shares.find(row.student.id);
+    return tutor == shares.end() || tutor->second != name;
+  });
+}
+
+void makeBlind(Export& all) {
+  if (all.course.settings.secret.empty())
+    throw UsageError({.what = "--blind",
+                      .found = "no secret of the course",
+                      .wanted = "secret_file in the course file, which leads from these ids to students"});
+  const std::string secret = classroom::classSecret(all.course.settings.secret);
+  for (classroom::GradeRow& row : all.book.rows)
+    row.student = {.id = classroom::blindId(secret, row.student.id)};
 }
 
 // In the results, a folder could be taken for a student, and feedback for a result.
@@ -107,7 +145,9 @@ ExitCode exportJson(const Project& project, const ExportOptions& options) {
 }
 
 ExitCode exportHtml(const Project& project, const ExportOptions& options) {
-  const Export all = read(project, options);
+  Export all = read(project, options);
+  if (!options.tutor.empty()) keepShare(all, options.tutor);
+  if (options.blind) makeBlind(all);
   makePlace(options);
   const int written = classroom::writeFeedbackFolders(all.book, options.results, options.out);
   say(fmt::format("Feedback: {} pages in {}", written, shown(options.out)));
@@ -205,8 +245,11 @@ void addExport(CLI::App* all, Action& action) {
             "canvas results --course course.toml -o grades", exportCanvas, options());
   addTarget(all, action, "json", "All grades for programs",
             "json results --course course.toml -o grades.json", exportJson, options());
-  addTarget(all, action, "html", "A page of feedback per student and exercise",
-            "html results --course course.toml -o feedback", exportHtml, options());
+  const auto html = options();
+  CLI::App* pages = addTarget(all, action, "html", "A page of feedback per student and exercise",
+                              "html results --course course.toml -o feedback", exportHtml, html);
+  addOptions(pages, {{"--tutor", html->tutor, "NAME", "only the share of this tutor of the course"},
+                     {"--blind", html->blind, "ids without names, which adjustments may use"}});
 }
 
 }  // namespace rex::cli

@@ -61,11 +61,12 @@ struct GradeManyOptions {
   bool acceptFewer = false;           ///< take results of the same text with fewer points, too
   std::filesystem::path submitted{};  ///< CSV file; empty: use the times of the files
   std::filesystem::path
-      manifest{};        ///< only write the list of tasks here; empty: grade. Or see task and collect
-  int task = 0;          ///< only grade this line of the manifest; 0: all
-  bool collect = false;  ///< only make the table
-  bool csv = false;      ///< print grades.csv
-  bool json = false;     ///< print what was done
+      manifest{};           ///< only write the list of tasks here; empty: grade. Or see task and collect
+  int task = 0;             ///< only grade this line of the manifest; 0: all
+  bool collect = false;     ///< only make the table
+  bool csv = false;         ///< print grades.csv
+  bool json = false;        ///< print what was done
+  bool complaints = false;  ///< only list the open ones
   std::vector<std::string> explain{};  ///< a student and an exercise: only say how this grade came about
   bool regrade = false;                ///< also submissions that have a valid result
   bool evidence = false;               ///< keep pictures and replays of failed visible checks
@@ -533,7 +534,8 @@ ExitCode gradeClass(const Project& project, const classroom::Course& course, Gra
                   count, count == 1 ? "" : "s", numberOf(sandbox->level), graded, count - graded,
                   work.rejected, shown(options.out / "grades.csv")));
   if (!complete || work.taken == ExitCode::kGraderFault) return ExitCode::kGraderFault;
-  return held > 0 ? ExitCode::kBelow : work.taken;
+  if (held > 0) return ExitCode::kBelow;
+  return book.conflicts > 0 ? ExitCode::kNotGradable : work.taken;
 }
 
 // What the options ask for: to grade, or one of the things that need only the folder of results.
@@ -559,6 +561,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
                                     .student = options.explain[0],
                                     .exercise = options.explain[1],
                                     .json = options.json});
+  if (options.complaints) return listComplaints(project, options.out, options.files);
   if (options.task > 0)
     return gradeOne(project, {.manifest = options.manifest,
                               .task = options.task,
@@ -642,11 +645,16 @@ void addGrade(CLI::App* command, Action& action) {
   forget[1]->excludes(shown[1]);
   for (CLI::Option* part : parts) part->excludes(forget[0])->excludes(forget[1]);
   addExplain(command, options->explain);
+  addOptions(command, {{"--complaints", options->complaints,
+                        "only list the complaints without an answer, each with how its grade came about"}})
+      .front()
+      ->excludes(shown[1]);
   command->callback([&action, options] {
-    const bool needsNone = !options->explain.empty() || options->task > 0 || options->collect;
+    const bool needsNone =
+        !options->explain.empty() || options->task > 0 || options->collect || options->complaints;
     if (options->folder.empty() && !needsNone && !options->forgets()) throw CLI::RequiredError("DIR");
     if (!options->folder.empty() && needsNone)
-      throw UsageError({.what = "DIR has no effect with --task, --collect and --explain"});
+      throw UsageError({.what = "DIR has no effect with --task, --collect, --explain and --complaints"});
     action = [options](const Project& p) { return gradeMany(p, *options); };
   });
 }

@@ -12,8 +12,8 @@ namespace rex::cli {
 
 inline constexpr const char* kGradingCodes =
     "Exit codes: 0 graded, whatever the grades; 1 fewer points wait for --accept;\n"
-    "2 something could not be taken; 3 a grading must be repeated; 4 the sandbox is\n"
-    "weaker than required; 64 wrong use.";
+    "2 something could not be taken, or tutors disagree; 3 a grading must be\n"
+    "repeated; 4 the sandbox is weaker than required; 64 wrong use.";
 
 /// Options that several commands of the instructor's desk have in common: share/doc/grading.md.
 CLI::Option* addDeadlines(CLI::App* command, std::filesystem::path& file);

@@ -3,6 +3,7 @@
 
 #include "base/process.h"
 #include "base/sha256.h"
+#include "classroom/tutors.h"
 #include "cli/command_schema.h"
 #include "commands/built_project.h"
 #include "support/class_results.h"
@@ -147,6 +148,55 @@ TEST_F(CourseTest, ExplainsAGrade) {
   replace(course(), "Carl C.", "Yan, Y.");
   EXPECT_THAT(flat(collect({"--explain", "yan, y.", "98"}).error),
               HasSubstr("several students are called 'yan, y.': wanted one of the ids carl, yan"));
+}
+
+TEST_F(CourseTest, SharesTheClassAmongTutors) {
+  const std::string secret = "the secret of the course", blind = classroom::blindId(secret, "adam");
+  write(root() / "secret", secret + "\n");
+  replace(course(), "results = \"results\"", "results = \"results\"\nsecret_file = \"secret\"");
+  write(course(), fileText(course()) +
+                      "[[tutor]]\nname = \"Ann\"\nadjustments = \"ann.toml\"\n[[tutor]]\n"
+                      "name = \"Ben\"\nadjustments = \"ben.toml\"\n");
+  EXPECT_EQ(exported("html", {"--tutor", "Ann"}).code, 0);
+  EXPECT_TRUE(fs::exists(root() / "html/adam") && fs::exists(root() / "html/yan") &&
+              !fs::exists(root() / "html/carl"));
+  EXPECT_THAT(flat(exported("html", {"--tutor", "An"}).error),
+              HasSubstr("--tutor: found 'An', wanted Ann, Ben (did you mean 'Ann'?)"));
+  fs::remove_all(root() / "html");
+  const Ended pages = exported("html", {"--tutor", "Ann", "--blind"});
+  EXPECT_THAT(pages.output, HasSubstr("3 pages"));
+  EXPECT_THAT(flat(pages.error), HasSubstr("Ben has not written"));
+  EXPECT_FALSE(fs::exists(root() / "html/adam"));
+  EXPECT_THAT(fileText(root() / "html" / blind / kEx / "feedback.html"),
+              AllOf(HasSubstr(blind), Not(HasSubstr("=1+2"))));
+  const auto decides = [&](const std::string& tutor, const std::string& student, int points) {
+    return "[[adjustment]]\nstudent = \"" + student +
+           "\"\nexercise = \"98\"\npoints = " + std::to_string(points) + "\nreason = \"r\"\nauthor = \"" +
+           tutor + "\"\ndate = 2026-12-01\n";
+  };
+  write(root() / "ann.toml", decides("Ann", blind, 5));
+  write(root() / "ben.toml",
+        decides("Ben", "carl", 6) +
+            "[[complaint]]\nstudent = \"zoe\"\nexercise = \"98\"\ndate = 2026-12-02\n"
+            "text = \"It turns.\"\n[[complaint]]\nstudent = \"adam\"\nexercise = \"98\"\n"
+            "date = 2026-12-01\ntext = \"x\"\nanswer = \"y\"\n");
+  EXPECT_EQ(collect().code, 0);
+  EXPECT_THAT(fileText(results() / "totals.csv"), AllOf(HasSubstr(",5,5,10\n"), HasSubstr(",6,6,")));
+  const Ended complaints = collectWithout({"--complaints"});
+  EXPECT_THAT(flat(complaints.output),
+              AllOf(HasSubstr("zoe 98-template, 2026-12-02 (Ann, "), HasSubstr("It turns."),
+                    HasSubstr("Final: 6.8 of 10 points"), HasSubstr("1 open, 1 answered")));
+  write(root() / "ben.toml", decides("Ben", "adam", 6));
+  const Ended conflict = collect();
+  EXPECT_EQ(conflict.code, 2);
+  EXPECT_THAT(flat(conflict.error),
+              AllOf(HasSubstr("adam 98-template: 5 points (Ann: "), HasSubstr("6 points (Ben: "),
+                    HasSubstr("none of it counts until the adjustments of the course decide")));
+  EXPECT_EQ(exported("canvas").code, 2);
+  replace(course(), "secret_file = \"secret\"", "");
+  EXPECT_THAT(flat(exported("html", {"--blind"}).error), HasSubstr("wanted the secret_file of the course"));
+  fs::remove(root() / "ann.toml");
+  EXPECT_THAT(flat(exported("html", {"--blind"}).error), HasSubstr("--blind: found no secret of the course"));
 }
 
 TEST_F(CourseTest, ForgetsOnePersonOrAnOldTerm) {
