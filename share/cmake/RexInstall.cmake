@@ -95,8 +95,15 @@ function(rex_install_exercises)
       include(\"${PROJECT_SOURCE_DIR}/share/cmake/install/exercise_files.cmake\")" COMPONENT runtime)
   endforeach()
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION share/rex COMPONENT runtime ${REX_TRANSIENT})
+  # Those who grade a class get what hands it to Slurm, and the plan of a term: see RexPackage.cmake.
+  file(GLOB solutions ${PROJECT_SOURCE_DIR}/exercises/*/solution.cpp)
+  set(of_trees "grade-*")
+  if(solutions)
+    set(of_trees "grade-parallel")
+    install(FILES ${PROJECT_SOURCE_DIR}/share/grading/term.toml DESTINATION share/rex/share/grading COMPONENT runtime)
+  endif()
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/ci DESTINATION share/rex COMPONENT runtime USE_SOURCE_PERMISSIONS
-          PATTERN "grade-*" EXCLUDE ${REX_TRANSIENT})
+          PATTERN "${of_trees}" EXCLUDE ${REX_TRANSIENT})
   install(FILES ${PROJECT_SOURCE_DIR}/share/completion/rex.bash
           DESTINATION share/bash-completion/completions RENAME rex COMPONENT runtime)
   install(FILES ${PROJECT_SOURCE_DIR}/share/completion/_rex DESTINATION share/zsh/vendor-completions COMPONENT runtime)

@@ -13,6 +13,7 @@
 
 namespace rex::cli::ci_files_test {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -386,6 +387,12 @@ TEST_F(ManyByEngines, HandsAnArrayToSlurm) {
   EXPECT_THAT(fileText(root() / "arguments"), HasSubstr("--requeue --array=1-2%5 "));
   EXPECT_TRUE(shell("scripts/rex grade --collect -o results").ok());
   EXPECT_EQ(fileText(root() / "results" / "grades.csv"), fileText(root() / "whole" / "grades.csv"));
+  const ProcessResult chunk = shell(
+      "sed -i 's/1 2 2/1/' bin/sbatch; export REX=$PWD/scripts/rex; "
+      "PATH=$PWD/bin:$PATH share/ci/grade-slurm results 5 --chunk 20");
+  EXPECT_THAT(fileText(root() / "arguments"), HasSubstr("--array=1%5 "));
+  EXPECT_THAT(chunk.output,
+              AllOf(HasSubstr("adam 98-template: kept"), HasSubstr("$(touch y) 98-template: kept")));
 }
 
 TEST(PackageVersions, SortByTheTimeOfTheCommitAndBeforeTheNextRelease) {
@@ -456,6 +463,11 @@ TEST_F(ManyByEngines, CutsArraysThatAreTooLongForSlurm) {
             "--array=1-100%5\nID + 0\n--array=1-100%5\nID + 100\n--array=1-50%5\nID + 200\n");
   EXPECT_EQ(handIn(" --tasks 3,7-9,99-102,250").output,
             "--array=3,7-9,99-100%5\nID + 0\n--array=1-2%5\nID + 100\n--array=50%5\nID + 200\n");
+  EXPECT_EQ(handIn(" --chunk 2").output, "--array=1-100%5\nID + 0\n--array=1-25%5\nID + 100\n");
+  EXPECT_EQ(handIn(" --chunk 20 --tasks 3,7-9,99-102,250").output, "--array=1,5-6,13%5\nID + 0\n");
+  EXPECT_THAT(handIn(" --chunk x").error, HasSubstr("--chunk: found 'x', wanted a number from 1 to 9999"));
+  EXPECT_THAT(shell("REX=/nowhere share/ci/grade-slurm results 5").error,
+              HasSubstr("REX: found '/nowhere', wanted the path of rex, such as /usr/bin/rex"));
   const ProcessResult refused = handIn(" --tasks 'x;y'");
   EXPECT_EQ(refused.exitCode, 64);
   EXPECT_THAT(refused.error, HasSubstr("--tasks: found 'x;y', wanted numbers such as 3,7-9"));

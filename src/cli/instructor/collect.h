@@ -36,17 +36,19 @@ struct GradingSummary {
 /// own, so it does little itself.
 inline constexpr int kSecondsOfTask = 300;
 
-/// One line of a list of tasks.
+/// One line of a list of tasks, or a chunk of lines.
 struct GradeOneOptions {
   std::filesystem::path manifest{};
-  int task = 0;  ///< from 1
+  int task = 0;   ///< from 1; with chunks of 20: the second chunk is that of the lines 21 to 40
+  int chunk = 1;  ///< lines
   std::filesystem::path out{};
   std::filesystem::path secret{};
   bool evidence = false;
   bool accept = false;              ///< take a result with fewer points, too
   std::filesystem::path workers{};  ///< folder that keeps compiled programs; empty: none
 };
-/// Grades it, unless it has a valid result. kFull if it has one afterwards.
+/// Grades them one after another, each in a process of its own, unless they have valid results. kFull if all
+/// have one afterwards.
 [[nodiscard]] ExitCode gradeOne(const Project& project, const GradeOneOptions& options);
 
 /// What `rex grade --collect` makes of a folder of results.

@@ -62,7 +62,8 @@ struct GradeManyOptions {
   std::filesystem::path submitted{};  ///< CSV file; empty: use the times of the files
   std::filesystem::path
       manifest{};           ///< only write the list of tasks here; empty: grade. Or see task and collect
-  int task = 0;             ///< only grade this line of the manifest; 0: all
+  int task = 0;             ///< only grade this line, or chunk, of the manifest; 0: all
+  int chunk = 1;            ///< lines of a chunk
   bool collect = false;     ///< only make the table
   bool csv = false;         ///< print grades.csv
   bool json = false;        ///< print what was done
@@ -565,6 +566,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   if (options.task > 0)
     return gradeOne(project, {.manifest = options.manifest,
                               .task = options.task,
+                              .chunk = options.chunk,
                               .out = options.out,
                               .secret = options.secret,
                               .evidence = options.evidence,
@@ -631,10 +633,12 @@ void addGrade(CLI::App* command, Action& action) {
       command,
       {{"--manifest", options->manifest, "FILE.tsv", "only write the list of tasks, without grading"},
        {"--task", options->task, {1, 1e9}, "K", "only grade line K of the --manifest, unless it is done"},
+       {"--chunk", options->chunk, {1, 9999}, "N", "--task counts chunks of N lines"},
        {"--collect", options->collect,
         "only make the tables from the results (--manifest: of these tasks), and name what is missing"}},
       "For clusters");
-  parts[1]->needs(parts[0])->excludes(parts[2]);
+  parts[1]->needs(parts[0])->excludes(parts[3]);
+  parts[2]->needs(parts[1]);
   const auto forget = addOptions(
       command,
       {{"--forget", options->forget, "ID", "list what is kept about this student; with --accept, remove it"},

@@ -156,6 +156,28 @@ TEST_F(GradeManyTest, GradesTasksOneByOneToTheSameTable) {
   EXPECT_EQ(table(), table("whole"));
 }
 
+TEST_F(GradeManyTest, GradesTasksInChunks) {
+  handIn("adam", kGood), handIn("bob", kBroken), handIn("carl", kWrong);
+  const std::string manifest = (root() / "tasks.tsv").string(), out = results().string();
+  EXPECT_EQ(grade({"--manifest", manifest}).code, 0);
+  const auto chunk = [&](const std::string& task) {
+    return rex({"grade", "--manifest", manifest, "--task", task, "--chunk", "2", "--out", out});
+  };
+  EXPECT_EQ(chunk("3").code, 64);
+  EXPECT_THAT(chunk("3").error, HasSubstr("--task: found 3, wanted 1 to 2, in chunks of 2"));
+  write(results() / "adam/98-template/main.cpp", kWrong);
+  const Ended first = chunk("1");
+  EXPECT_EQ(first.code, 3);
+  EXPECT_THAT(flat(first.error), HasSubstr("adam 98-template: "));
+  EXPECT_THAT(first.output, HasSubstr("bob 98-template: compile_error")) << "whatever became of the other";
+  write(results() / "adam/98-template/main.cpp", kGood);
+  const Ended again = chunk("1");
+  EXPECT_EQ(again.code, 0) << again.error;
+  EXPECT_THAT(again.output, HasSubstr("bob 98-template: kept"));
+  EXPECT_EQ(chunk("2").code, 0) << "the last one has one task";
+  EXPECT_EQ(rex({"grade", "--collect", "-o", out, "--manifest", manifest}).code, 0);
+}
+
 TEST_F(GradeManyTest, GradesNothingThatTheListOfTasksDoesNotMean) {
   handIn("adam", kGood);
   const std::string manifest = (root() / "tasks.tsv").string();
