@@ -39,8 +39,9 @@ inline constexpr int kSecondsOfTask = 300;
 /// One line of a list of tasks, or a chunk of lines.
 struct GradeOneOptions {
   std::filesystem::path manifest{};
-  int task = 0;   ///< from 1; with chunks of 20: the second chunk is that of the lines 21 to 40
-  int chunk = 1;  ///< lines
+  int task = 0;          ///< from 1; with chunks of 20: the second chunk is that of the lines 21 to 40
+  int chunk = 1;         ///< lines
+  bool visible = false;  ///< only visible checks: the next run grades the hidden ones
   std::filesystem::path out{};
   std::filesystem::path secret{};
   bool evidence = false;

@@ -64,6 +64,7 @@ struct GradeManyOptions {
       manifest{};           ///< only write the list of tasks here; empty: grade. Or see task and collect
   int task = 0;             ///< only grade this line, or chunk, of the manifest; 0: all
   int chunk = 1;            ///< lines of a chunk
+  bool visible = false;     ///< only grade visible checks of a task or chunk
   bool collect = false;     ///< only make the table
   bool csv = false;         ///< print grades.csv
   bool json = false;        ///< print what was done
@@ -567,6 +568,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
     return gradeOne(project, {.manifest = options.manifest,
                               .task = options.task,
                               .chunk = options.chunk,
+                              .visible = options.visible,
                               .out = options.out,
                               .secret = options.secret,
                               .evidence = options.evidence,
@@ -634,11 +636,13 @@ void addGrade(CLI::App* command, Action& action) {
       {{"--manifest", options->manifest, "FILE.tsv", "only write the list of tasks, without grading"},
        {"--task", options->task, {1, 1e9}, "K", "only grade line K of the --manifest, unless it is done"},
        {"--chunk", options->chunk, {1, 9999}, "N", "--task counts chunks of N lines"},
+       {"--visible", options->visible,
+        "with --task: only visible checks; the same command without it grades the hidden ones"},
        {"--collect", options->collect,
         "only make the tables from the results (--manifest: of these tasks), and name what is missing"}},
       "For clusters");
-  parts[1]->needs(parts[0])->excludes(parts[3]);
-  parts[2]->needs(parts[1]);
+  parts[1]->needs(parts[0])->excludes(parts[4]);
+  for (const int only : {2, 3}) parts[static_cast<std::size_t>(only)]->needs(parts[1]);
   const auto forget = addOptions(
       command,
       {{"--forget", options->forget, "ID", "list what is kept about this student; with --accept, remove it"},

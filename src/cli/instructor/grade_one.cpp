@@ -32,8 +32,11 @@ ExitCode gradeTaskOf(const Project& project, const Task& task, const sandbox::Sa
                      const submission::Toolchain& toolchain, const GradeOneOptions& options) {
   const PrivateFolder work(std::filesystem::temp_directory_path());
   const ExerciseInfo exercise = project.exercise(task.exercise);
-  const classroom::StoredResult stored =
-      classroom::readStored(task, options.out, classroom::classSecret(options.secret));
+  const std::string secret = classroom::classSecret(options.secret);
+  const classroom::StoredResult stored = classroom::readStored(task, options.out, secret);
+  const grading::Pass pass = options.visible                                       ? grading::Pass::kVisible
+                             : classroom::readFirstPass(task, options.out, secret) ? grading::Pass::kHidden
+                                                                                   : grading::Pass::kWhole;
   const grading::GradeResult result = classroom::gradeTask(task, stored, toolchain, exercise,
                                                            {.out = options.out,
                                                             .workFolder = work.path(),
@@ -41,7 +44,13 @@ ExitCode gradeTaskOf(const Project& project, const Task& task, const sandbox::Sa
                                                             .secret = options.secret,
                                                             .evidence = options.evidence,
                                                             .workers = options.workers,
-                                                            .accept = options.accept});
+                                                            .accept = options.accept,
+                                                            .pass = pass});
+  if (awaitsHiddenChecks(result) && options.visible) {
+    say(fmt::format("{}: visible checks graded", escapeForTerminal(nameOf(task))));
+    std::fflush(stdout);
+    return ExitCode::kFull;
+  }
   say(wrap(escapeForTerminal(fmt::format("{}: {}, {} of {} points {}", nameOf(task), toString(result.outcome),
                                          result.score, result.maxScore, result.message)),
            2, 0));

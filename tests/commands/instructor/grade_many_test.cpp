@@ -156,6 +156,31 @@ TEST_F(GradeManyTest, GradesTasksOneByOneToTheSameTable) {
   EXPECT_EQ(table(), table("whole"));
 }
 
+TEST_F(GradeManyTest, GradesTasksInTwoPasses) {
+  handIn("adam", kGood), handIn("bob", kBroken), handIn("carl", kWrong);
+  EXPECT_EQ(grade({}, "whole").code, 0);
+  const std::string manifest = (root() / "tasks.tsv").string(), out = results().string();
+  EXPECT_EQ(grade({"--manifest", manifest}).code, 0);
+  const auto all = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"grade", "--manifest", manifest, "--task", "1", "--chunk", "3", "--out", out});
+    return rex(more);
+  };
+  const Ended first = all({"--visible"});
+  EXPECT_EQ(first.code, 0) << first.error;
+  EXPECT_THAT(first.output,
+              AllOf(HasSubstr("adam 98-template: visible checks graded\nbob 98-template: compile_error"),
+                    HasSubstr("carl 98-template: visible checks graded")));
+  EXPECT_THAT(flat(rex({"grade", "--collect", "-o", out, "--manifest", manifest}).error),
+              HasSubstr("no result: tasks 1,3"));
+  const Ended second = all({});
+  EXPECT_EQ(second.code, 0) << second.error;
+  EXPECT_THAT(second.output, HasSubstr("bob 98-template: kept"));
+  EXPECT_EQ(rex({"grade", "--collect", "-o", out, "--manifest", manifest}).code, 0);
+  EXPECT_EQ(table(), table("whole"));
+  EXPECT_FALSE(fs::exists(results() / "adam/98-template/visible"));
+  EXPECT_THAT(grade({"--visible"}).error, HasSubstr("--visible requires --task"));
+}
+
 TEST_F(GradeManyTest, GradesTasksInChunks) {
   handIn("adam", kGood), handIn("bob", kBroken), handIn("carl", kWrong);
   const std::string manifest = (root() / "tasks.tsv").string(), out = results().string();
