@@ -241,7 +241,7 @@ std::string withReplaced(const std::vector<Line>& lines,
   return text;
 }
 
-constexpr std::array<const char*, 3> kKeys = {"caught by", "shown by", "mistake"};
+constexpr std::array<const char*, 4> kKeys = {"caught by", "shown by", "mistake", "ask"};
 constexpr std::string_view kInPlaceOf = "in place of:";
 
 // Composes the variants of wrong.cpp with the solution, line by line.
@@ -302,6 +302,8 @@ class VariantReader {
     };
     require(!variant.caughtBy.empty(), "no check is named", "'// caught by: CHECK, ...'");
     require(!variant.mistake.empty(), "the mistake is not described", "'// mistake: TEXT'");
+    require(variant.question.empty() || variant.question.find('?') != variant.question.npos,
+            "the question has no '?'", "'// ask: QUESTION?'");
     require(!replacements_.empty(), "no region", "'// <solution NAME>' with the mistake");
     closeRegion();
     variant.source = withReplaced(solution_, replacements_);
@@ -395,7 +397,7 @@ class VariantReader {
     if (!comment.empty()) readHeader(comment, line);
   }
 
-  // Reads `caught by: CHECK, ...`, `shown by: CHECK, ...` or `mistake: TEXT`.
+  // Reads `caught by: CHECK, ...`, `shown by: CHECK, ...`, `mistake: TEXT` or `ask: QUESTION`.
   void readHeader(std::string_view comment, const Line& line) {
     const std::string_view key = comment.substr(0, comment.find(':'));
     const std::string_view value = trim(comment.substr(std::min(key.size() + 1, comment.size())));
@@ -408,9 +410,11 @@ class VariantReader {
       variant.mistake = value;
     else if (key == "mistake")
       fail("a second line for the mistake", line, key, "'// mistake: TEXT' in one line");
+    else if (key == "ask")
+      variant.question.append(variant.question.empty() ? "" : " ").append(value);
     else
       fail(fmt::format("unknown line '{}' in a variant", key), line, comment,
-           "one of 'caught by:', 'shown by:' and 'mistake:', each in one line",
+           "one of 'caught by:', 'shown by:', 'mistake:' and 'ask:', each in one line",
            nearestNames(key, {kKeys.begin(), kKeys.end()}));
   }
 

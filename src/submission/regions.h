@@ -44,6 +44,7 @@ struct WrongVariant {
   std::vector<std::string> caughtBy{};  ///< ids of checks, or kForbiddenCall
   std::vector<std::string> shownBy{};   ///< ids of checks that write a picture of it; may be empty
   std::string mistake{};
+  std::string question{};                           ///< asked by checks that recognise it; empty: none
   std::string source{};                             ///< complete main.cpp with the mistake in it
   std::map<std::string, SourceLocation> namedAt{};  ///< where wrong.cpp names each of these checks
 };
@@ -52,13 +53,14 @@ struct WrongVariant {
 inline constexpr std::string_view kForbiddenCall = "forbidden-call";
 
 /// The variants of wrong.cpp in order. A section begins with `// <variant NAME> caught by: id, id`, in one
-/// line or two, then come the lines `// shown by: id, id`, if there are such checks, and `// mistake: text`,
-/// then regions, each after a line `// <solution NAME>`, which replace those of the solution. A region with a
-/// line `// in place of: TEXT` replaces only that line of the solution which begins with TEXT, and with `TEXT
-/// ... END` all from there to the next line that begins with END. Regions and sections end at the next
-/// marker, without the blank lines before it. Before the first section there may be comments. Throws Error
-/// (file:line:column) for an unknown, repeated or misplaced marker, an unknown or missing line, a region or
-/// passage that the solution lacks, a section without one, and code outside regions.
+/// line or two, then come the lines `// shown by: id, id` and `// ask: question`, as many as it takes, and
+/// `// mistake: text`, then regions, each after a line `// <solution NAME>`, which replace those of the
+/// solution. A region with a line `// in place of: TEXT` replaces only that line of the solution which begins
+/// with TEXT, and with `TEXT ... END` all from there to the next line that begins with END. Regions and
+/// sections end at the next marker, without the blank lines before it. Before the first section there may be
+/// comments. Throws Error (file:line:column) for an unknown, repeated or misplaced marker, an unknown or
+/// missing line, a region or passage that the solution lacks, a section without one, and code outside
+/// regions.
 [[nodiscard]] std::vector<WrongVariant> readVariants(std::string_view solution,
                                                      const std::string& solutionFile, std::string_view wrong,
                                                      const std::string& wrongFile);

@@ -116,6 +116,8 @@ constexpr std::string_view kWrong = R"(// Mistakes with circles.
 // caught by: area, size-grows
 // shown by: area
 // mistake: forgets pi.
+// ask: Where is pi?
+// ask: It is missing.
 // <solution area>
   const double square = r * r;
 
@@ -137,6 +139,7 @@ TEST(ReadVariants, ReplacesTheNamedRegionsOnly) {
   EXPECT_THAT(variants[0].shownBy, ElementsAre("area"));
   EXPECT_EQ(toString(variants[0].namedAt.at("size-grows")), "wrong.cpp:4:21");
   EXPECT_EQ(variants[0].mistake, "forgets pi.");
+  EXPECT_EQ(variants[0].question, "Where is pi? It is missing.");
   EXPECT_EQ(variants[0].source, R"(#include "exercise.h"
 
 double squareOfNumber(double x) { return x * x; }
@@ -153,6 +156,7 @@ int main() { return area(1) > 0; }
   EXPECT_THAT(variants[1].caughtBy, ElementsAre("area"));
   EXPECT_THAT(variants[1].shownBy, ElementsAre());
   EXPECT_EQ(variants[1].mistake, "cubes, and so: wrong.");
+  EXPECT_EQ(variants[1].question, "");
   EXPECT_EQ(variants[1].source, R"(#include "exercise.h"
 
 double squareOfNumber(double x) { return x * x * x; }
@@ -236,16 +240,18 @@ TEST(ReadVariants, SaysWhatIsWrongAndWhere) {
       {"\n// <variant a>\n// caught by: area\n// mistake: m\n",
        "w.cpp:2:13: variant 'a': no region: wanted '// <solution NAME>' with the mistake"},
       {"// <variant a>\n// caugth by: area\n",
-       "w.cpp:2:4: unknown line 'caugth by' in a variant: wanted one of 'caught by:', 'shown by:' and "
-       "'mistake:', each in one line (did you mean 'caught by'?)"},
+       "w.cpp:2:4: unknown line 'caugth by' in a variant: wanted one of 'caught by:', 'shown by:', "
+       "'mistake:' and 'ask:', each in one line (did you mean 'caught by'?)"},
       {"// <variant a> caugth by: area\n",
-       "w.cpp:1:16: unknown line 'caugth by' in a variant: wanted one of 'caught by:', 'shown by:' and "
-       "'mistake:', each in one line (did you mean 'caught by'?)"},
+       "w.cpp:1:16: unknown line 'caugth by' in a variant: wanted one of 'caught by:', 'shown by:', "
+       "'mistake:' and 'ask:', each in one line (did you mean 'caught by'?)"},
       {"// <variant a>\n// mistake: begins here\n// and ends here\n",
-       "w.cpp:3:4: unknown line 'and ends here' in a variant: wanted one of 'caught by:', 'shown by:' and "
-       "'mistake:', each in one line"},
+       "w.cpp:3:4: unknown line 'and ends here' in a variant: wanted one of 'caught by:', 'shown by:', "
+       "'mistake:' and 'ask:', each in one line"},
       {"// <variant a>\n// mistake: m\n// mistake: n\n",
        "w.cpp:3:4: a second line for the mistake: wanted '// mistake: TEXT' in one line"},
+      {"// <variant a>\n// caught by: area\n// mistake: m\n// ask: Is it r\n// <solution area>\n",
+       "w.cpp:1:13: variant 'a': the question has no '?': wanted '// ask: QUESTION?'"},
       {"// <variant a>\n//\n// mistake: m\n  int x;\n",
        "w.cpp:4:3: code outside a region: wanted '// <solution NAME>' before it"},
       {"// <variant a>\n// <solution aera>\n",
