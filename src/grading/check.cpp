@@ -446,6 +446,8 @@ void Check::keepRefused(const remote::AnswerRefused& refused) {
   keep(std::move(shortfall));
 }
 
+std::string Check::asked() const { return worst_ && info_.group == Group::kVisible ? worst_->question : ""; }
+
 CheckResult Check::judge(const std::function<void(Check&)>& run) {
   bool ended = false;
   try {

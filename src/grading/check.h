@@ -118,6 +118,8 @@ class Check {
   /// Evidence for the requirement that decided the verdict of judge(). Empty if all requirements hold or
   /// the check is hidden.
   const std::optional<Evidence>& evidence() const { return evidence_; }
+  /// The question at the end of the message of judge(); empty if there is none.
+  std::string asked() const;
 
   /// While the returned object is alive, near() asks about the first mistake whose value is within the
   /// tolerance of `got`: "Is S never moved?" Mistakes that hardly differ from the wanted value, by at most

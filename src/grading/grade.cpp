@@ -18,6 +18,7 @@
 #include "base/process.h"
 #include "base/process_pool.h"
 #include "base/sha256.h"
+#include "grading/heard_checks.h"
 #include "grading/hidden_seed.h"
 #include "grading/results.h"
 #include "grading/worker_process.h"
@@ -39,6 +40,11 @@ struct Grading {
   std::uint64_t signature = 0;
   std::string secret{};  ///< of the course; empty: there is none
   bool hasSecretChecks = false;
+  const CallLayouts& layouts;
+
+  bool sketches(const CheckInfo& info) const {
+    return info.group == Group::kVisible && !(job.mistakes.empty() && job.sketches.empty());
+  }
 };
 
 CheckResult blank(const CheckInfo& info) {
@@ -190,6 +196,7 @@ struct Attempt {
   WorkerRun run;
   CheckResult verdict;
   bool slept = false;  ///< before or in its first call
+  Heard heard{};
 };
 
 /// Thrown through a check function if a worker failed that it had started beside its first one.
@@ -216,12 +223,16 @@ Attempt attempt(const RunnableCheck& check, const Grading& grading, std::uint64_
   CheckResult verdict = faulty(check.info, "the check did not end");
   Check judge(check.info, seed);
   bool hasAnswered = false;
+  CallSketcher sketcher(grading.layouts);
+  if (grading.sketches(check.info)) judge.watchCases([&](bool) { sketcher.nextCase(); });
   const auto converse = [&](const Check::Conversation& conversation) {
     const auto listening = [&](remote::Caller& caller) {
       caller.whenFirstAnswered([&](const std::string& function) {
         hasAnswered = true;
         standing.answeredBy(check.info, function);
       });
+      if (grading.sketches(check.info))
+        caller.listen([&](auto&&... call) { sketcher.hear(std::forward<decltype(call)>(call)...); });
       conversation(caller);
     };
     return runWithWorker(grading.job, check.info.part, grading.signature, listening, patience);
@@ -263,7 +274,7 @@ Attempt attempt(const RunnableCheck& check, const Grading& grading, std::uint64_
   }
   const bool slept = isLate(run) && !hasAnswered;
   if (slept && check.info.group == Group::kVisible) verdict.message += kNoAnswer;
-  return {std::move(run), std::move(verdict), slept};
+  return {std::move(run), std::move(verdict), slept, {std::move(sketcher).take(), judge.asked()}};
 }
 
 // The longest that a busy machine makes us wait.
@@ -289,9 +300,10 @@ Attempt attemptTwiceIfNeeded(const RunnableCheck& check, const Grading& grading,
   return second;
 }
 
-/// Runs one check and adds what the worker used and printed to the whole. Tells if the program `slept`.
+/// Runs one check and adds what the worker used and printed to the whole. Tells if the program `slept`, and
+/// what was `heard`.
 CheckResult runCheck(const RunnableCheck& check, const Grading& grading, GradeResult& whole,
-                     Standing& standing, bool& slept) {
+                     Standing& standing, bool& slept, Heard& heard) {
   CheckResult verdict;
   const auto brokenBy = [&](const std::exception* error) {
     return standing.function().empty()
@@ -299,10 +311,10 @@ CheckResult runCheck(const RunnableCheck& check, const Grading& grading, GradeRe
                : unjudged(check.info, standing.function(), error != nullptr ? error->what() : "");
   };
   try {
-    const Attempt last =
-        attemptTwiceIfNeeded(check, grading, seedFor(check.info.group, whole, grading), standing);
+    Attempt last = attemptTwiceIfNeeded(check, grading, seedFor(check.info.group, whole, grading), standing);
     const WorkerRun& run = last.run;
     slept = last.slept;
+    heard = std::move(last.heard);
     verdict = last.verdict;
     verdict.cpuSeconds = run.cpuSeconds;
     verdict.wallSeconds = run.wallSeconds;
@@ -445,6 +457,9 @@ class Copies {
     }
   }
 
+  /// In the visible checks that have ended.
+  const HeardChecks& heard() const { return heard_; }
+
  private:
   static constexpr int kSlept = 2;
   std::filesystem::path file(std::size_t k) const { return folder_.path() / fmt::format("{}.json", k); }
@@ -464,7 +479,9 @@ class Copies {
     }
     Standing standing(checks_[k].info, write);
     bool slept = false;
-    write(runCheck(checks_[k], grading_, part, standing, slept));
+    Heard heard;
+    write(runCheck(checks_[k], grading_, part, standing, slept, heard));
+    if (grading_.sketches(checks_[k].info)) heard_.keep(k, heard);
     return slept ? kSlept : 0;
   }
 
@@ -485,6 +502,7 @@ class Copies {
   const Grading& grading_;
   std::function<void(std::size_t, GradeResult)> ended_;
   PrivateFolder folder_{grading_.job.temporaryFolder};
+  HeardChecks heard_{folder_.path()};
   Budget budget_{grading_, start_};
 };
 
@@ -516,13 +534,17 @@ void setSandbox(GradeResult& result, sandbox::Level level) {
 }
 
 GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, const GradingJob& job,
-                  std::uint64_t signature, const std::function<void(const GradeResult&)>& save) {
+                  std::uint64_t signature, const std::function<void(const GradeResult&)>& save,
+                  const CallLayouts& layouts) {
   const std::string secret = job.secret.empty() ? "" : readCourseSecret(job.secret);
   const bool hasHidden = std::any_of(checks.begin(), checks.end(), [](const RunnableCheck& check) {
     return check.info.group == Group::kHidden;
   });
-  const Grading grading{
-      .job = job, .signature = signature, .secret = secret, .hasSecretChecks = hasHidden && !secret.empty()};
+  const Grading grading{.job = job,
+                        .signature = signature,
+                        .secret = secret,
+                        .hasSecretChecks = hasHidden && !secret.empty(),
+                        .layouts = layouts};
   if (job.pass == Pass::kHidden)
     requireFirstPass(result, checks);
   else
@@ -539,8 +561,7 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
   save(result);
   const GradeResult start = result;
   std::map<std::size_t, GradeResult> parts;  // put together in the order of the checks
-  Copies copies(start, checks, grading, [&](std::size_t k, GradeResult part) {
-    parts.emplace(k, std::move(part));
+  const auto saveParts = [&] {
     result = start;
     for (const auto& [place, one] : parts) add(result, place, one);
     if (std::all_of(result.checks.begin(), result.checks.end(), [](const auto& one) { return one.status; })) {
@@ -548,8 +569,17 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
       result.message.clear();
     }
     save(result);
+  };
+  Copies copies(start, checks, grading, [&](std::size_t k, GradeResult part) {
+    parts.emplace(k, std::move(part));
+    saveParts();
   });
-  if (job.pass != Pass::kHidden) copies.run(Group::kVisible);
+  if (job.pass != Pass::kHidden) {
+    copies.run(Group::kVisible);
+    std::vector<std::pair<std::size_t, CheckResult*>> visible;
+    for (auto& [k, part] : parts) visible.emplace_back(k, &part.checks.front());
+    if (copies.heard().askAboutMistakes(job, visible)) saveParts();
+  }
   if (job.pass != Pass::kVisible) copies.run(Group::kHidden);
   return result;
 }

@@ -9,6 +9,7 @@
 #include "grading/check.h"
 #include "grading/grading_job.h"
 #include "grading/results.h"
+#include "grading/sketch.h"
 #include "remote/caller.h"
 
 namespace rex::grading {
@@ -30,9 +31,11 @@ void setSandbox(GradeResult& result, sandbox::Level level);
 /// this process. Adds the results in the given order to `result` and keeps its other fields. Calls `save`
 /// after each check and before the first, when everything still counts as a grader error. An exception of a
 /// check function is a grader error, too; once it has read a student's value, the check fails instead. The
-/// death of a copy is the student's fault. Throws Error if the second pass gets no result of the first.
+/// death of a copy is the student's fault. With layouts, visible checks ask about the known mistakes of the
+/// job. Throws Error if the second pass gets no result of the first.
 [[nodiscard]] GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks,
                                 const GradingJob& job, std::uint64_t signature,
-                                const std::function<void(const GradeResult&)>& save);
+                                const std::function<void(const GradeResult&)>& save,
+                                const CallLayouts& layouts = {});
 
 }  // namespace rex::grading

@@ -79,14 +79,15 @@ void printList(const std::vector<RunnableCheck>& checks) {
   fmt::print("{}\n", list.dump(2));
 }
 
-ExitCode gradeAndSave(const Arguments& arguments, const std::vector<RunnableCheck>& checks) {
+ExitCode gradeAndSave(const Arguments& arguments, const std::vector<RunnableCheck>& checks,
+                      const CallLayouts& layouts) {
   const std::filesystem::path& results = arguments.job.results;
   const bool prepared = !results.empty() && std::filesystem::exists(results);
   const GradeResult start = prepared ? loadResult(results) : GradeResult{};
-  const GradeResult result =
-      grade(start, checks, arguments.job, arguments.signature, [&](const GradeResult& soFar) {
-        if (!results.empty()) saveResult(soFar, results);
-      });
+  const auto save = [&](const GradeResult& soFar) {
+    if (!results.empty()) saveResult(soFar, results);
+  };
+  const GradeResult result = grade(start, checks, arguments.job, arguments.signature, save, layouts);
   if (result.outcome == Outcome::kGraderError) return ExitCode::kGraderFault;
   return result.outcome == Outcome::kPass ? ExitCode::kFull : ExitCode::kBelow;
 }
@@ -187,7 +188,7 @@ ExitCode run(int argc, const char* const* argv, std::vector<RunnableCheck> check
     if (arguments.hostileAnswers > 0) return attack(arguments, checks, layouts);
     if (arguments.grown) return growAnswers(arguments, checks, layouts);
     if (arguments.lies) return lie(arguments, checks, layouts);
-    return gradeAndSave(arguments, checks);
+    return gradeAndSave(arguments, checks, layouts);
   } catch (const std::exception& error) {
     return complain(error.what(), ExitCode::kGraderFault);
   }

@@ -33,6 +33,8 @@ void declareOptions(CLI::App& app, GradingJob& job) {
                  "folder for pictures and replays of visible checks that do not hold");
   app.add_option("--secret", job.secret,
                  "file with the secret of the course, for the seeds of hidden checks");
+  app.add_option("--mistakes", job.mistakes, "file with the known mistakes, which visible checks ask about");
+  app.add_option("--sketches", job.sketches, "where to write sketches of the answers in visible checks");
   app.add_option("--jobs", job.jobs, "checks to run at once")->check(CLI::Range(1, 1024));
 }
 
@@ -59,6 +61,8 @@ std::vector<std::string> toArguments(const GradingJob& job) {
   add("--temporary", job.temporaryFolder.string());
   add("--evidence", job.evidence.string());
   add("--secret", job.secret.string());
+  add("--mistakes", job.mistakes.string());
+  add("--sketches", job.sketches.string());
   add("--jobs", fmt::format("{}", job.jobs));
   return arguments;
 }

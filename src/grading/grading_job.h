@@ -35,7 +35,10 @@ struct GradingJob {
   std::filesystem::path evidence{};  ///< folder for pictures of failed visible checks; empty: none
   std::filesystem::path
       secret{};  ///< file with the secret of the course; empty: hidden checks use `seed`, too
-  int jobs = 1;  ///< checks that run at once, each in a copy of the grader
+  std::filesystem::path mistakes{};  ///< KnownMistakes, whose questions are asked; empty: none are known
+  std::filesystem::path
+      sketches{};  ///< where to write the SketchedChecks of the visible checks; empty: nowhere
+  int jobs = 1;    ///< checks that run at once, each in a copy of the grader
 };
 
 /// The options of a grader program, which set the job.

@@ -42,9 +42,6 @@ enum class Hostility {
                                                      const std::string& layout, Hostility hostility,
                                                      Rng& rng);
 
-/// For each of the student's functions: the layout of its return value, then those of its arguments.
-using CallLayouts = std::vector<std::vector<std::string>>;
-
 /// What hostile answers did to one check.
 struct HostileOutcome {
   std::string check;

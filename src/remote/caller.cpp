@@ -39,11 +39,14 @@ Reader Caller::call(std::uint32_t method, const std::string& name, const Writer&
       Thrown thrown = Wire<Thrown>::get(message.body);
       message.body.expectEnd();
       running_ = outer;
+      if (heard_) heard_(method, name, arguments.bytes(), {});
       throw RemoteThrow(name, std::move(thrown));
     }
     running_ = outer;
     if (refusal) std::rethrow_exception(refusal);
-    return tamper_ ? Reader(tamper_(method, arguments.bytes(), message.body.bytes())) : message.body;
+    Reader reply = tamper_ ? Reader(tamper_(method, arguments.bytes(), message.body.bytes())) : message.body;
+    if (heard_) heard_(method, name, arguments.bytes(), reply.bytes());
+    return reply;
   }
 }
 

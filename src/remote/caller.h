@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -51,6 +52,12 @@ class Caller {
   /// it a result or an argument of a callback.
   void whenFirstAnswered(std::function<void(const std::string&)> told) { told_ = std::move(told); }
 
+  /// Calls `heard` after each call with its arguments and the answer, or without an answer
+  /// if the function threw. The bytes are valid until it returns.
+  using Heard = std::function<void(std::uint32_t method, const std::string& name, Bytes arguments,
+                                   const std::optional<Bytes>& answer)>;
+  void listen(Heard heard) { heard_ = std::move(heard); }
+
  private:
   void answerCallback(const Message& request, const Answer& answer, std::exception_ptr& refusal);
 
@@ -60,6 +67,7 @@ class Caller {
   StandIn standIn_{};
   Tamper tamper_{};
   std::function<void(const std::string&)> told_{};
+  Heard heard_{};
 };
 
 }  // namespace rex::remote

@@ -75,6 +75,8 @@ grading::GradingJob jobOf(const Toolchain& toolchain, const ExerciseInfo& exerci
   if (isWhole) job.libraries = toolchain.libraries;
   if (const path control = controlProgram(toolchain.workerPart); !isWhole && std::filesystem::exists(control))
     job.control = control;
+  if (const path known = knownMistakesFile(exercise.definition); std::filesystem::exists(known))
+    job.mistakes = known;
   return job;
 }
 
@@ -382,6 +384,8 @@ std::string exerciseVersion(const path& folder) {
     if (std::filesystem::exists(folder / name)) text += readTextFile(folder / name) + '\0';
   return sha256(text).substr(0, 12);
 }
+
+path knownMistakesFile(const path& folder) { return folder / "sketches.tsv"; }
 
 std::vector<grading::CheckResult> listChecks(const Toolchain& toolchain) {
   const ProcessResult run = runProcess({toolchain.grader.string(), "--list"});

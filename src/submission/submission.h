@@ -52,6 +52,9 @@ struct BuiltSubmission {
 [[nodiscard]] grading::GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain,
                                               const ExerciseInfo& exercise, const SubmissionOptions& options);
 
+/// Where the exercise in that folder keeps its grading::KnownMistakes, if it has any.
+[[nodiscard]] std::filesystem::path knownMistakesFile(const std::filesystem::path& folder);
+
 /// Twelve digits that change whenever the exercise in that folder or its checks change.
 [[nodiscard]] std::string exerciseVersion(const std::filesystem::path& folder);
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <ctime>
 #include <filesystem>
@@ -14,9 +15,11 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "grading/known_mistakes.h"
 #include "grading/worker_process.h"
 #include "interface.h"
 #include "support/expect_error.h"
+#include "support/file_text.h"
 #include "support/fresh_folder.h"
 #include "support/paths.h"
 #include "support/rounds.h"
@@ -24,7 +27,11 @@
 
 namespace rex::grading::grade_test {
 
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::filesystem::path kGood = ownFolder() / "tests" / "sample" / "good",
                             kControl = kGood.parent_path() / "worker.control";
@@ -82,6 +89,57 @@ TEST(Grade, AsksFreshWorkers) {
   EXPECT_EQ(thrown.status, Outcome::kRuntimeError);
   EXPECT_THAT(thrown.message, HasSubstr("1 of 2 cases hold; case 1: threw int in ikStep"));
   EXPECT_EQ(gradeOf("loop", afresh(steps)).status, Outcome::kTimeLimit);
+}
+
+// The program squares, which is taken for a mistake here.
+class KnownMistakesTest : public ::testing::Test {
+ protected:
+  std::vector<CheckResult> gradeWith(const std::filesystem::path& mistakes,
+                                     const std::filesystem::path& sketches = {}) const {
+    const auto asks = [](const std::string& id, Group group, double more, const std::string& byHand) {
+      return check(id, group, [more, byHand](Check& judge, Student& student) {
+        const auto suspicion = judge.ask(byHand);
+        judge.forEachCase(2, [&](int k) {
+          judge.near("square", student.square(k + 1.5), std::pow(k + 1.5, 2) + more, 1e-9);
+        });
+      });
+    };
+    const std::vector<RunnableCheck> checks = {
+        asks("right", Group::kVisible, 0, ""), asks("wrong", Group::kVisible, 0.1, ""),
+        asks("by-hand", Group::kVisible, 0.1, "Do you know?"), asks("unseen", Group::kHidden, 0.1, "")};
+    const GradingJob job{.worker = kGood, .mistakes = mistakes, .sketches = sketches};
+    return grade(
+               {}, checks, job, Student::signature(), [](const GradeResult&) {}, Student::layouts())
+        .checks;
+  }
+
+  TemporaryFolder temporary_;
+  std::filesystem::path known_ = temporary_.path() / "known.tsv", seen_ = temporary_.path() / "seen.tsv";
+};
+
+TEST_F(KnownMistakesTest, AreAskedAboutInVisibleChecks) {
+  const std::vector<CheckResult> before = gradeWith({}, seen_);
+  EXPECT_THAT(before[1].message, EndsWith("(seed 1)"));
+  EXPECT_THAT(before[2].message, EndsWith(". Do you know?"));
+  const SketchedChecks seen = readSketchedChecks(fileText(seen_), "seen");
+  std::vector<std::string> ids;
+  for (const auto& [id, calls] : seen) ids.push_back(id);
+  EXPECT_THAT(ids, ElementsAre("by-hand", "right", "wrong")) << "nothing of hidden checks";
+  SketchedChecks right = seen;
+  for (auto& [id, calls] : right)
+    for (SketchedCall& call : calls) call.answer.size += 0.1;
+  std::ofstream(known_) << toText(knownMistakes(right, {{"Is it squared?", seen}}));
+  const std::vector<CheckResult> after = gradeWith(known_);
+  EXPECT_EQ(after[0].message, "");
+  EXPECT_EQ(after[1].message, before[1].message + ". Is it squared?");
+  EXPECT_THAT(after[2].message, AllOf(EndsWith("(seed 1). Is it squared?"), Not(HasSubstr("Do you"))));
+  EXPECT_EQ(after[3].message, before[3].message);
+}
+
+TEST_F(KnownMistakesTest, CostNothingIfTheirFileIsBroken) {
+  std::ofstream(known_) << "mistake";
+  EXPECT_THAT(gradeWith(known_)[2].message, EndsWith(". Do you know?"));
+  EXPECT_THAT(gradeWith(temporary_.path() / "nowhere.tsv")[2].message, EndsWith(". Do you know?"));
 }
 
 TEST(Grade, NeverBlamesTheStudentForTheGrader) {

@@ -35,6 +35,8 @@ TEST(GradingJob, ComesBackFromArguments) {
                        .temporaryFolder = "tmp",
                        .evidence = "checks",
                        .secret = "secret",
+                       .mistakes = "known.tsv",
+                       .sketches = "seen.tsv",
                        .jobs = 3};
   const GradingJob back = parsed(toArguments(job));
   EXPECT_EQ(back.worker, job.worker);
@@ -55,6 +57,8 @@ TEST(GradingJob, ComesBackFromArguments) {
   EXPECT_EQ(back.temporaryFolder, job.temporaryFolder);
   EXPECT_EQ(back.evidence, job.evidence);
   EXPECT_EQ(back.secret, job.secret);
+  EXPECT_EQ(back.mistakes, job.mistakes);
+  EXPECT_EQ(back.sketches, job.sketches);
   EXPECT_EQ(back.jobs, job.jobs);
   EXPECT_EQ(toArguments(back), toArguments(job));
   EXPECT_EQ(toArguments(parsed(toArguments({}))), toArguments({}));
