@@ -494,6 +494,9 @@ GateResult variantsAreCaught(const GateContext& context) {
   const CaughtTogether all = whyNotCaughtTogether(context);
   GateResult result = judge(all.complaints);
   if (!all.alone.empty()) result.note = fmt::format("compiled alone: {}", join(all.alone, ", "));
+  if (all.asked > 0)
+    result.note +=
+        fmt::format("{}recognised by their answers: {}", result.note.empty() ? "" : "; ", all.asked);
   return result;
 }
 

@@ -15,6 +15,7 @@
 #include "base/text_file.h"
 #include "submission/regions.h"
 #include "submission/student_files.h"
+#include "submission/submission.h"
 
 namespace rex::authoring {
 namespace {
@@ -146,7 +147,8 @@ void requireNoSolutionText(const path& exercise) {
   std::map<std::string, std::string> released = madeFiles(exercise);
   for (const auto& entry : fs::directory_iterator(exercise)) {
     const path name = entry.path().filename();
-    if (name == "README.md" || name == "exercise.toml" || name == "show.cpp" || name.extension() == ".h")
+    if (name == "README.md" || name == "exercise.toml" || name == "show.cpp" || name.extension() == ".h" ||
+        name == submission::knownMistakesFile({}))
       released[name.string()] = readTextFile(entry.path());
   }
   const PrivateFolder folder(fs::temp_directory_path());

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "authoring/seen_messages.h"
+#include "authoring/sketched_variants.h"
 #include "base/error.h"
 #include "base/process.h"
 #include "base/text.h"
@@ -185,11 +186,18 @@ std::vector<grading::CompileDiagnostic> JointBuild::forbiddenCalls(std::size_t v
 
 submission::BuiltSubmission JointBuild::link(std::size_t variant) const {
   submission::BuiltSubmission built{.start = {}, .source = sources_[variant], .worker = {}};
+  built.start.compile.diagnostics = forbiddenCalls(variant);
+  return linkWith(functions_[variant], std::move(built));
+}
+
+submission::BuiltSubmission JointBuild::linkReference() const { return linkWith({}, {}); }
+
+submission::BuiltSubmission JointBuild::linkWith(const std::vector<StandIn>& functions,
+                                                 submission::BuiltSubmission built) const {
   std::vector<grading::CompileDiagnostic>& messages = built.start.compile.diagnostics;
-  messages = forbiddenCalls(variant);
   if (messages.empty()) {
     submission::Toolchain toolchain = context_.toolchain;
-    for (const auto& [own, replaced] : functions_[variant])
+    for (const auto& [own, replaced] : functions)
       toolchain.linkFlags.push_back(fmt::format("-Wl,--defsym={}={}", replaced, own));
     const submission::StudentProgram worker = submission::linkWorker(toolchain, object_);
     if (worker.ok) built.worker = worker.program;
@@ -272,20 +280,24 @@ void requireChecks(const submission::WrongVariant& variant, const std::vector<st
         throw grading::unknownCheck(id, known, variant.namedAt.at(id));
 }
 
-grading::GradeResult gradeWhole(const GateContext& context, const submission::WrongVariant& variant) {
-  const submission::SubmissionOptions options = gradingOf(context, variant);
+grading::GradeResult gradeWhole(const GateContext& context, const submission::WrongVariant& variant,
+                                const SketchedVariants* sketched = nullptr) {
+  submission::SubmissionOptions options = gradingOf(context, variant);
+  if (sketched != nullptr) sketched->listenTo(options.job);
   writeTextFile(options.main, variant.source);
   return submission::gradeSubmission(context.toolchain, context.exercise, options).result;
 }
 
-// Runs only the checks that the variant names: as soon as one of them fails, the full score is out of reach.
+// Runs only the checks that the variant names, and those that are sketched: as soon as one of the former
+// fails, the full score is out of reach.
 grading::GradeResult gradeLinked(const GateContext& context, const submission::BuiltSubmission& built,
-                                 const submission::WrongVariant& variant) {
+                                 const submission::WrongVariant& variant, const SketchedVariants& sketched) {
   if (built.worker.empty()) return built.start;
   submission::SubmissionOptions options = gradingOf(context, variant);
   options.workFolder = built.worker.parent_path();
   options.job.checks = variant.caughtBy;
   options.job.checks.insert(options.job.checks.end(), variant.shownBy.begin(), variant.shownBy.end());
+  sketched.listenTo(options.job);
   return submission::gradeBuilt(built, context.toolchain, context.exercise, options);
 }
 
@@ -333,6 +345,41 @@ Complaints whyNotSeen(const GateContext& context, const SeenMessages& seen) {
   return {};
 }
 
+grading::GradeResult gradeVariant(const GateContext& context, const JointBuild& build, std::size_t k,
+                                  const submission::WrongVariant& variant, SketchedVariants& sketched) {
+  grading::GradeResult result = build.holds(k) ? gradeLinked(context, build.link(k), variant, sketched)
+                                               : gradeWhole(context, variant, &sketched);
+  if (sketched.isNeeded()) sketched.takeVariant(variant);
+  return result;
+}
+
+void takeSolution(const GateContext& context, const JointBuild& build, SketchedVariants& sketched) {
+  const submission::BuiltSubmission built = build.linkReference();
+  if (built.worker.empty())
+    throw Error({.what = "solution.cpp cannot be linked", .found = built.start.message});
+  submission::SubmissionOptions options = gradingOf(context, {});
+  options.workFolder = built.worker.parent_path();
+  sketched.listenTo(options.job);
+  static_cast<void>(submission::gradeBuilt(built, context.toolchain, context.exercise, options));
+  sketched.takeRight();
+}
+
+// The messages depend on what is stored, so this comes first.
+void storeSketches(const GateContext& context, const JointBuild& build,
+                   const std::vector<submission::WrongVariant>& variants, SketchedVariants& sketched) {
+  for (std::size_t k = 0; sketched.isNeeded() && k < variants.size(); ++k)
+    static_cast<void>(gradeVariant(context, build, k, variants[k], sketched));
+  sketched.store();
+}
+
+void countQuestion(const submission::WrongVariant& variant, const std::string& message, CaughtTogether& all) {
+  const bool isAsked = !variant.question.empty() && message.find(variant.question) != message.npos;
+  if (isAsked) ++all.asked;
+  if (!isAsked && !variant.question.empty())
+    all.complaints.push_back(fmt::format("{}: nobody who makes this mistake is asked: {} They read: {}",
+                                         variant.name, variant.question, message));
+}
+
 // Adds the complaints of `find`, each with the name of the variant.
 template <class Find>
 void addComplaints(std::vector<std::string>& complaints, const std::string& name, const Find& find) {
@@ -375,9 +422,9 @@ std::vector<std::string> whyNotCaught(const GateContext& context, const std::str
 }
 
 CaughtTogether whyNotCaughtTogether(const GateContext& context) {
+  const std::vector<grading::CheckResult> checks = submission::listChecks(context.toolchain);
   std::vector<std::string> known, sources;
-  for (const grading::CheckResult& check : submission::listChecks(context.toolchain))
-    known.push_back(check.id);
+  for (const grading::CheckResult& check : checks) known.push_back(check.id);
   CaughtTogether all;
   std::vector<submission::WrongVariant> variants;
   for (const submission::WrongVariant& variant : wantedVariants(context))
@@ -390,22 +437,25 @@ CaughtTogether whyNotCaughtTogether(const GateContext& context) {
   const path solution = context.exercise.folder / "solution.cpp";
   const JointBuild build(context, submission::referenceText(readTextFile(solution), solution.string()),
                          sources);
+  SketchedVariants sketched(context, variants, checks);
+  if (sketched.isNeeded()) takeSolution(context, build, sketched);
+  if (context.storesMessages) storeSketches(context, build, variants, sketched);
   SeenMessages seen;
   std::vector<KeyFrame> pictures;
   for (std::size_t k = 0; k < variants.size(); ++k) {
     const submission::WrongVariant& variant = variants[k];
     if (!build.holds(k)) all.alone.push_back(variant.name);
     addComplaints(all.complaints, variant.name, [&] {
-      const grading::GradeResult result =
-          build.holds(k) ? gradeLinked(context, build.link(k), variant) : gradeWhole(context, variant);
+      const grading::GradeResult result = gradeVariant(context, build, k, variant, sketched);
       seen[variant.name] = seenMessage(result, variant.caughtBy);
       addPictures(pictures, result, variant.caughtBy, variant.name, context.workFolder);
       return whyNotCaughtIn(result, variant, context.workFolder);
     });
+    if (sketched.isNeeded()) countQuestion(variant, seen[variant.name], all);
   }
   if (!context.sheet.empty()) writeSheet(pictures, context.sheet);
-  const Complaints changed = whyNotSeen(context, seen);
-  all.complaints.insert(all.complaints.end(), changed.begin(), changed.end());
+  for (const Complaints& changed : {sketched.whyNotStored(), whyNotSeen(context, seen)})
+    all.complaints.insert(all.complaints.end(), changed.begin(), changed.end());
   return all;
 }
 

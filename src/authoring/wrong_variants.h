@@ -66,10 +66,15 @@ class JointBuild {
   /// report for the whole file. The next call overwrites the worker. Throws Error if the tools fail.
   submission::BuiltSubmission link(std::size_t variant) const;
 
+  /// The worker of the reference, for as long.
+  submission::BuiltSubmission linkReference() const;
+
  private:
   std::vector<std::size_t> compile(const std::string& reference);
   std::vector<std::string> symbols() const;
   std::vector<grading::CompileDiagnostic> forbiddenCalls(std::size_t variant) const;
+  submission::BuiltSubmission linkWith(const std::vector<StandIn>& functions,
+                                       submission::BuiltSubmission built) const;
 
   GateContext context_;
   std::vector<std::string> sources_;  // of each variant
@@ -98,13 +103,15 @@ void requireVariants(const submission::ExerciseInfo& exercise, const std::vector
 struct CaughtTogether {
   std::vector<std::string> complaints;  ///< lines that begin with the name of a variant
   std::vector<std::string> alone;       ///< names of those that were tested with whyNotCaught() instead
+  std::size_t asked = 0;                ///< variants whose question their first message asks
 };
 
 /// The same for all variants, or those of the context, at a fraction of the cost: JointBuild compiles only
 /// functions that differ, and only the checks that a variant names are run. Only whyNotCaught() proves that
 /// the whole file compiles, and runs the other checks. Also complains if students read other messages than
-/// seen.txt says, or stores them there if the context asks for it. Writes the context's sheet if it has one.
-/// Throws Error like exerciseVariants() and requireVariants().
+/// seen.txt says, and, if variants have questions and all are tested, if other mistakes than those of
+/// knownMistakesFile() are known or a question is never asked; or stores both if the context asks for it.
+/// Writes the context's sheet if it has one. Throws Error like exerciseVariants() and requireVariants().
 [[nodiscard]] CaughtTogether whyNotCaughtTogether(const GateContext& context);
 
 }  // namespace rex::authoring

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 // The solution of the template includes what a variant calls.
@@ -46,6 +47,55 @@ TEST_F(WrongVariantsTest, AreCaughtTogetherAndTheirMessagesStoredIfAsked) {
   EXPECT_TRUE(result.passed) << result.message;
   EXPECT_EQ(result.note, "");
   EXPECT_THAT(fileText(exercise() / "seen.txt"), HasSubstr("doubled\n    quarter-turn: point"));
+}
+
+// The questions stand in wrong.cpp, and what is stored for students holds nothing else of it, and nothing of
+// hidden checks.
+TEST_F(WrongVariantsTest, AreRecognisedByTheirAnswers) {
+  const fs::path file = exercise() / "sketches.tsv";
+  writeVariant("doubled", "caught by: quarter-turn\n// ask: Is it twice as far?",
+               "return 2 * std::cos(angle) * p;\n");
+  writeVariant("stretched", "caught by: quarter-turn\n// ask: Is the point moved away?",
+               "const double c = std::cos(angle), s = std::sin(angle);\n"
+               "return 1.5 * Eigen::Vector2d(c * p.x() - s * p.y(), s * p.x() + c * p.y());\n");
+  EXPECT_THAT(pass("wrong").message, HasSubstr("sketches.tsv does not describe wrong.cpp: it is missing."));
+  const GateResult stored = pass("wrong", /*storesMessages=*/true);
+  EXPECT_TRUE(stored.passed) << stored.message;
+  EXPECT_EQ(stored.note, "recognised by their answers: 2");
+  const std::string seen = fileText(exercise() / "seen.txt"), sketches = fileText(file);
+  EXPECT_THAT(seen, AllOf(HasSubstr(". Is it twice as far?\n"), HasSubstr(". Is the point moved away?\n")));
+  EXPECT_THAT(sketches,
+              AllOf(HasSubstr("mistake\tIs it twice as far?\n"), HasSubstr("check\tquarter-turn\n")));
+  for (const char* secret : {"angles-add", "doubled", "stretched", "std::", "return"})
+    EXPECT_THAT(sketches, Not(HasSubstr(secret)));
+  EXPECT_TRUE(pass("wrong").passed);
+  EXPECT_TRUE(pass("wrong", /*storesMessages=*/false, {"doubled"}).passed);
+  EXPECT_TRUE(pass("release").passed);
+  pass("wrong", /*storesMessages=*/true);
+  EXPECT_EQ(fileText(file), sketches) << "the same each time";
+}
+
+TEST_F(WrongVariantsTest, AreStoredAsTheyAre) {
+  const fs::path file = exercise() / "sketches.tsv";
+  writeVariant("doubled", "caught by: quarter-turn\n// ask: Is it twice as far?",
+               "return 2 * std::cos(angle) * p;\n");
+  pass("wrong", /*storesMessages=*/true);
+  const std::string wrong = fileText(exercise() / "wrong.cpp");
+  std::string other = wrong;
+  other.replace(other.find("return 2 *"), 10, "return 3 *");
+  write("wrong.cpp", other);
+  EXPECT_THAT(
+      pass("wrong").message,
+      AllOf(HasSubstr("sketches.tsv does not describe wrong.cpp: check 'keeps-length': other answers of "
+                      "rotated. Make it with REX_UPDATE_GOLDEN=1."),
+            HasSubstr("doubled: nobody who makes this mistake is asked: Is it twice as far? They read: "
+                      "quarter-turn: point")));
+  other.erase(other.find("// ask:"), other.find("// mistake: doubled") - other.find("// ask:"));
+  write("wrong.cpp", other);
+  EXPECT_THAT(pass("wrong").message,
+              HasSubstr("sketches.tsv does not describe wrong.cpp: no variant has a question."));
+  pass("wrong", /*storesMessages=*/true);
+  EXPECT_FALSE(fs::exists(file));
 }
 
 TEST_F(WrongVariantsTest, AreReadAsTheFileSays) {
