@@ -12,9 +12,6 @@
 
 inline constexpr double kTau = 0.01;
 
-/// For questions about single numbers.
-inline Eigen::MatrixXd number(double x) { return Eigen::MatrixXd::Constant(1, 1, x); }
-
 inline PointState moved(const PointState& at, double u, double mass) {
   return {at.q + kTau * at.v, at.v + kTau * u / mass};
 }

@@ -21,20 +21,16 @@ inline void forcesOf(rex::grading::Check& check, Student& student, const std::ve
   const Eigen::VectorXd q = 2 * rng.normalVector(n), v = rng.normalVector(n), a = rng.normalVector(n),
                         none = Eigen::VectorXd::Zero(n);
   const rex::Model model = modelOf(chain);
-  const auto forces = [&](const Eigen::VectorXd& rate, const Eigen::VectorXd& acceleration,
-                          const Eigen::Vector3d& down) {
-    return rex::inverseDynamics(model, q, rate, acceleration, down);
+  const auto forces = [&](const Eigen::VectorXd& rate, const Eigen::VectorXd& acceleration) {
+    return rex::inverseDynamics(model, q, rate, acceleration, gravity);
   };
   check.input("a random chain", {{"links", n}, {"q", q}, {"v", v}, {"a", a}, {"gravity", gravity}});
-  const Eigen::VectorXd got = student.newtonEuler(chain, q, v, a, gravity), wanted = forces(v, a, gravity);
+  const Eigen::VectorXd got = student.newtonEuler(chain, q, v, a, gravity), wanted = forces(v, a);
   check.shape("newtonEuler", got, n, 1);
   const double tolerance = 1e-9 * (1 + wanted.norm());
-  const auto up = check.suspect("Does gravity have the wrong sign?", forces(v, a, -gravity));
-  const auto noGravity = check.suspect("Is gravity left out?", forces(v, a, Eigen::Vector3d::Zero()));
-  const auto noVelocity = check.suspect("Are all terms with velocities left out?", forces(none, a, gravity));
   const auto fits = [&](const Eigen::VectorXd& rate, const Eigen::VectorXd& acceleration) {
     const Eigen::VectorXd one = student.newtonEuler(chain, q, rate, acceleration, gravity);
-    return one.size() == n && (one - forces(rate, acceleration, gravity)).norm() <= tolerance;
+    return one.size() == n && (one - forces(rate, acceleration)).norm() <= tolerance;
   };
   const bool isWrong = (got - wanted).cwiseAbs().maxCoeff() > tolerance;
   const bool isStill = isWrong && fits(none, a);
@@ -57,10 +53,6 @@ inline void newtonAndEuler(rex::grading::Check& check, Student& student) {
   const double wanted = (mass * length * length + moment) * a[0] + mass * 9.81 * length * std::sin(q[0]);
   check.input("a pendulum (3:21): one link, axis x, its centre of mass below the hinge",
               {{"mass", mass}, {"length", length}, {"inertia", moment}, {"q", q}, {"v", v}, {"a", a}});
-  const double weight = mass * 9.81 * length * std::sin(q[0]);
-  const auto up = check.suspect("Does gravity have the wrong sign?", number(wanted - 2 * weight));
-  const auto noWeight = check.suspect("Is gravity left out?", number(wanted - weight));
-  const auto noMoment = check.suspect("Is the inertia of the link left out?", number(wanted - moment * a[0]));
   check.near("newtonEuler", student.newtonEuler({link}, q, v, a, {0, 0, -9.81}),
              Eigen::VectorXd::Constant(1, wanted), 1e-9, "N m");
   for (const int n : {1, 2, 3, 7}) forcesOf(check, student, randomChain(rng, n), rex::earthGravity());
@@ -80,10 +72,8 @@ inline void terms(rex::grading::Check& check, Student& student) {
     const Eigen::MatrixXd M = rex::massMatrix(model, q);
     const Eigen::VectorXd G = rex::gravityForces(model, q),
                           Cv = rex::biasForces(model, q, v, Eigen::Vector3d::Zero());
-    const auto inColumns = check.suspect("Does every column of M contain G, too?", M.colwise() + G);
     near("M of inertiaMatrix", student.inertiaMatrix(chain, q), M);
     near("G of gravityTerm", student.gravityTerm(chain, q, rex::earthGravity()), G);
-    const auto withG = check.suspect("Does it contain G, too?", Cv + G);
     near("C v of coriolisTerm", student.coriolisTerm(chain, q, v), Cv);
   }
 }
