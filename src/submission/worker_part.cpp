@@ -198,6 +198,21 @@ void link(const WorkerPartOrder& order, const fs::path& object, const Names& off
   dropUnusedNames(object, list, order);
 }
 
+// Links without a version are for compiling, and missing where rex is installed. The shortest name with a
+// version is that of the interface, which each version and each provider of the library has.
+fs::path runtimeName(const fs::path& library) {
+  const fs::path file = fs::canonical(library);
+  const std::string whole = file.filename().string(), start = whole.substr(0, whole.find(".so")) + ".so.";
+  fs::path best;
+  for (const auto& entry : fs::directory_iterator(library.parent_path())) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(start) && fs::weakly_canonical(entry.path()) == file &&
+        (best.empty() || name.size() < best.filename().string().size()))
+      best = entry.path();
+  }
+  return best.empty() ? file : best;
+}
+
 // The external libraries that the object file needs. Others are not linked: their functions could do
 // forbidden work, too.
 std::string neededBy(const fs::path& object, const WorkerPartOrder& order) {
@@ -209,8 +224,7 @@ std::string neededBy(const fs::path& object, const WorkerPartOrder& order) {
   for (const fs::path& library : order.libraries) {
     const std::string names = run({order.nm, "-D", "--defined-only", "-fjust-symbols", library.string()});
     const std::vector<std::string_view> lines = splitLines(names);
-    // Where rex is installed there are no links without a version: those are for compiling.
-    if (std::any_of(lines.begin(), lines.end(), isMissing)) needed += optionLine(fs::canonical(library));
+    if (std::any_of(lines.begin(), lines.end(), isMissing)) needed += optionLine(runtimeName(library));
   }
   return needed;
 }

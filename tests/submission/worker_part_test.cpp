@@ -175,6 +175,14 @@ TEST_F(WorkerPart, IsLinkedWithThoseLibrariesOfOthersThatItNeeds) {
   const fs::path options = linkOptions(folder() / "worker_part.o");
   link("allowed = [\"course\"]");
   EXPECT_THAT(readTextFile(options), testing::MatchesRegex("[^\n]*/libone.so\n"));
+  // As packages install it: for compiling, by its interface, and the file, which another version replaces.
+  fs::create_directory(folder() / "atlas");
+  fs::rename(folder() / "libone.so", folder() / "atlas" / "libone.so.3.10");
+  fs::create_symlink("atlas/libone.so.3.10", folder() / "libone.so.3");
+  fs::create_symlink("libone.so.3", folder() / "libone.so");
+  link("allowed = [\"course\"]");
+  EXPECT_THAT(readTextFile(options), testing::MatchesRegex("[^\n]*/libone.so.3\n"));
+  EXPECT_THAT(readTextFile(options), testing::Not(testing::HasSubstr("atlas")));
   link("allowed = [\"rex::Rng\"]");
   EXPECT_EQ(readTextFile(options), "");
   libraries_ = {folder() / "libnone.so"};
