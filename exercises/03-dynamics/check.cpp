@@ -412,6 +412,8 @@ void biasAndForce(Check& check, Student& student) {
       check.input(S.description().sceneName + ", body '" + body + "', random posture and velocities");
       const Eigen::Vector3d wanted = secondDifference(S, body);
       const Eigen::Vector3d got = student.accelerationBias(S.description(), body);
+      const auto zero =
+          check.ask("Is the change of J left out? The joints keep their velocity.", got.isZero());
       const double size = std::max(1., wanted.norm());
       const auto coarse = check.ask("It is nearly right: is the step h of the differences of J too large?",
                                     got.size() == 3 && (got - wanted).norm() < 0.15 * size);

@@ -221,7 +221,6 @@ return M * qdd - F;
 
 // <variant bias_dropped> caught by: hand-equations
 // mistake: treats the Jacobian as constant.
-// ask: Is the change of J left out? The joints keep their velocity.
 // <solution accelerationBias>
 return Eigen::Vector3d::Zero();
 

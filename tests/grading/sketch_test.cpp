@@ -76,7 +76,7 @@ TEST(Sketch, KnowsWhetherAllNumbersAreWhole) {
 }
 
 TEST(Sketch, RefusesBytesOfAnotherLayout) {
-  EXPECT_REX_ERROR(static_cast<void>(grading::sketchOf(bytesOf(1.0), "M3,1,d")),
+  EXPECT_REX_ERROR(static_cast<void>(grading::sketchOf(bytesOf(0.1), "M3,1,d")),
                    "an answer does not match its layout");
 }
 

@@ -272,11 +272,11 @@ TEST(VariantNames, AreThoseOfAllSectionsWhateverIsWrongWithThem) {
 TEST(VariantBlocks, AreTheLinesOfEachVariant) {
   const auto blocks = variantBlocks(kWrong, "w.cpp");
   ASSERT_EQ(blocks.size(), 2u);
-  ASSERT_EQ(blocks[0].size(), 7u) << "with the blank lines";
+  ASSERT_EQ(blocks[0].size(), 9u) << "with the blank lines";
   EXPECT_EQ(blocks[0][0].number, 4);
   EXPECT_EQ(blocks[0][0].text, "// caught by: area, size-grows");
-  EXPECT_EQ(blocks[0][3].text, "const double square = r * r;");
-  EXPECT_EQ(blocks[1][1].number, 15);
+  EXPECT_EQ(blocks[0][5].text, "const double square = r * r;");
+  EXPECT_EQ(blocks[1][1].number, 17);
 }
 
 TEST(ReferenceText, IsTheSolutionWithoutMarkersAndTodos) {
