@@ -67,7 +67,7 @@ Export read(const Project& project, const ExportOptions& options) {
   return all;
 }
 
-// The rows of a tutor's students. Whom nobody looks at is told.
+// The rows of the students of a tutor; a note names the students of nobody.
 void keepShare(Export& all, const std::string& name) {
   std::vector<std::string> known, nobodys;
   for (const classroom::Tutor& tutor : all.course.tutors) known.push_back(tutor.name);
