@@ -21,7 +21,7 @@ inline double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 inline std::string questionAbout(const Eigen::MatrixXd& got, double tolerance,
                                  const std::vector<Mistake>& mistakes) {
   for (const Mistake& mistake : mistakes)
-    if (distance(got, mistake.value) <= tolerance) return mistake.question;
+    if (distance(got, mistake.value) <= tolerance) return mistake.name;
   return "";
 }
 

@@ -303,7 +303,8 @@ using CheckResults = std::map<std::string, grading::CheckResult>;
 /// Grades what was pasted.
 class PasteGrader {
  public:
-  explicit PasteGrader(const GateContext& context) : context_(context), shown_(context) {
+  explicit PasteGrader(const GateContext& context)
+      : context_(context), exercise_(context.exercise), shown_(context) {
     const fs::path file = context.exercise.folder / "solution.cpp";
     const std::string solution = readTextFile(file);
     reference_ = submission::referenceText(solution, file.string());
@@ -338,7 +339,9 @@ class PasteGrader {
     for (const Paste& paste : pastes_) files.push_back(withBody(reference_, tasks_[paste.task], paste.body));
     for (const std::size_t task : used)
       files.push_back(withBody(reference_, tasks_[task], stubs_[tasks_[task].name]));
+    files.push_back(reference_);
     const JointBuild build(context_, reference_, files);
+    if (build.holds(files.size() - 1)) limitTimeBy(resultsOf(build.link(files.size() - 1), {}));
     std::size_t next = pastes_.size();
     for (const std::size_t task : used) {
       if (!build.holds(next))
@@ -361,9 +364,16 @@ class PasteGrader {
                                           .job = {.results = context_.workFolder / "results.json"}};
     options.job.checks = checks;
     for (const grading::CheckResult& check :
-         submission::gradeBuilt(built, context_.toolchain, context_.exercise, options).checks)
+         submission::gradeBuilt(built, context_.toolchain, exercise_, options).checks)
       results[check.id] = check;
     return results;
+  }
+
+  // Much of what is pasted searches without end: it gets three times what the solution needs in a check.
+  void limitTimeBy(const CheckResults& solution) {
+    double slowest = 0;
+    for (const auto& [id, check] : solution) slowest = std::max(slowest, check.cpuSeconds);
+    exercise_.limits.cpuSeconds = std::min(exercise_.limits.cpuSeconds, 1 + 3 * slowest);
   }
 
   // The checks that the function as handed out does not pass: those that ask it, or if none does, those that
@@ -424,6 +434,7 @@ class PasteGrader {
   }
 
   const GateContext& context_;
+  submission::ExerciseInfo exercise_;  // with its limits for what is pasted
   Shown shown_;
   std::string reference_;
   std::vector<ShownCode> tasks_{};

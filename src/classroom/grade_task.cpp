@@ -14,6 +14,7 @@
 #include "classroom/kept_workers.h"
 #include "grading/hidden_seed.h"
 #include "submission/student_build.h"
+#include "submission/submission.h"
 
 namespace rex::classroom {
 
@@ -126,7 +127,8 @@ std::string graderFingerprint(const submission::Toolchain& toolchain,
   files.insert(files.end(), {toolchain.grader, toolchain.workerObject});
   for (const fs::path& file : files) text += sha256(readTextFile(file)) + "\n";
   text += hashOfRunningProgram() + "\n";
-  if (fs::exists(launcher)) text += sha256(readTextFile(launcher)) + "\n";
+  for (const fs::path& file : {launcher, submission::knownMistakesFile(exercise.definition)})
+    if (fs::exists(file)) text += sha256(readTextFile(file)) + "\n";
   return sha256(text);
 }
 

@@ -135,7 +135,7 @@ std::string Check::questionAbout(const MatrixArg& got, const MatrixArg& wanted, 
   for (const Mistake& mistake : suspects_)
     if (isWithin(tolerance, got, mistake.value, period) &&
         !isWithin(10 * tolerance, wanted, mistake.value, period))
-      return mistake.question;
+      return mistake.name;
   for (const InputValue& one : inputs_)
     if (one.value.size() > 1 && !one.value.isZero(tolerance) && isWithin(tolerance, got, one.value))
       return fmt::format("Your value is the input {}, unchanged.", one.name);

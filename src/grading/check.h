@@ -36,30 +36,22 @@ struct CheckInfo {
   Group group = Group::kVisible;
 };
 
-/// A value from which a case can be computed by hand, with its name.
-struct InputValue {
-  InputValue(std::string itsName, const MatrixArg& itsValue) : name(std::move(itsName)), value(itsValue) {}
+/// A value and what it is.
+struct NamedValue {
+  NamedValue(std::string itsName, const MatrixArg& itsValue) : name(std::move(itsName)), value(itsValue) {}
   template <class Number>
-  requires std::is_arithmetic_v<Number> InputValue(std::string itsName, Number number)
+  requires std::is_arithmetic_v<Number> NamedValue(std::string itsName, Number number)
       : name(std::move(itsName)), value(Eigen::MatrixXd::Constant(1, 1, static_cast<double>(number))) {}
 
   std::string name;
   Eigen::MatrixXd value;
 };
 
-/// What a mistake that students make gives in place of the wanted value, and the question about it: {"Is the
-/// sign wrong?", -wanted}.
-struct Mistake {
-  Mistake(std::string itsQuestion, const MatrixArg& itsValue)
-      : question(std::move(itsQuestion)), value(itsValue) {}
-  template <class Number>
-  requires std::is_arithmetic_v<Number> Mistake(std::string itsQuestion, Number number)
-      : question(std::move(itsQuestion)),
-        value(Eigen::MatrixXd::Constant(1, 1, static_cast<double>(number))) {}
-
-  std::string question;
-  Eigen::MatrixXd value;
-};
+/// A value from which a case can be computed by hand: {"J", J}.
+using InputValue = NamedValue;
+/// What a mistake that students make gives in place of the wanted value, named by the question about it: {"Is
+/// the sign wrong?", -wanted}.
+using Mistake = NamedValue;
 
 /// Passed to a check function, which states its requirements through it. The first requirement that does
 /// not hold ends the function (or the case, inside forEachCase()). A check passes only if it stated at
