@@ -82,17 +82,17 @@ Eigen::MatrixXd solveMatrix(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) 
   return factorise("solve", A).solve(B);
 }
 
-Eigen::VectorXd leastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
-  requireRows("leastSquares", b.size(), A.rows());
+Eigen::MatrixXd leastSquares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+  requireRows("leastSquares", B.rows(), A.rows());
   requireFiniteEntries("leastSquares", A);
-  requireFiniteEntries("leastSquares: right side", b);
+  requireFiniteEntries("leastSquares: right side", B);
   const double largest = A.size() > 0 ? A.cwiseAbs().maxCoeff() : 0;
-  if (largest == 0) return Eigen::VectorXd::Zero(A.cols());
+  if (largest == 0) return Eigen::MatrixXd::Zero(A.cols(), B.cols());
   // Squares of its entries would overflow, or vanish; a power of two changes nothing else.
   const int exponent = std::ilogb(largest);
-  const Eigen::MatrixXd scaled = A.unaryExpr([=](double a) { return std::scalbn(a, -exponent); });
-  const Eigen::VectorXd x = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(scaled).solve(b);
-  return x.unaryExpr([=](double a) { return std::scalbn(a, -exponent); });
+  const auto scaled = [exponent](double a) { return std::scalbn(a, -exponent); };
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors(A.unaryExpr(scaled));
+  return factors.solve(B).unaryExpr(scaled);
 }
 
 Eigen::VectorXd solveSparse(const std::vector<MatrixEntry>& H, const Eigen::VectorXd& b) {

@@ -18,9 +18,14 @@ template <class Right>
 [[nodiscard]] auto solve(const Eigen::MatrixXd& A, const Eigen::MatrixBase<Right>& B) {
   return Eigen::Matrix<double, Eigen::Dynamic, Right::ColsAtCompileTime>(solveMatrix(A, B));
 }
-/// The x of smallest norm among those that minimise |A x - b|, for any A (m x n) and b (m). Throws Error
-/// for a b of the wrong size, and for numbers that are not finite.
-[[nodiscard]] Eigen::VectorXd leastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+/// The X of smallest norm among those that minimise |A X - B|, for any A (m x n) and B with m rows: a vector
+/// for a vector, a matrix for a matrix. Throws Error for a B with another number of rows, and for numbers
+/// that are not finite.
+[[nodiscard]] Eigen::MatrixXd leastSquares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+template <class Right>
+[[nodiscard]] auto leastSquares(const Eigen::MatrixXd& A, const Eigen::MatrixBase<Right>& B) {
+  return Eigen::Matrix<double, Eigen::Dynamic, Right::ColsAtCompileTime>(leastSquares(A, Eigen::MatrixXd(B)));
+}
 /// One entry of a sparse matrix.
 struct MatrixEntry {
   int row = 0, column = 0;

@@ -41,8 +41,10 @@ TEST(LeastSquares, ChoosesTheShortestOfManySolutions) {
   Rng rng(4);
   const Eigen::MatrixXd wide = randomMatrix(rng, 3, 8);
   const Eigen::VectorXd b = rng.normalVector(3);
-  const Eigen::VectorXd wanted = wide.transpose() * inverse(wide * wide.transpose()) * b;
-  EXPECT_LT((leastSquares(wide, b) - wanted).norm(), 1e-10);
+  const Eigen::MatrixXd pseudoInverse = wide.transpose() * inverse(wide * wide.transpose());
+  EXPECT_LT((leastSquares(wide, b) - pseudoInverse * b).norm(), 1e-10);
+  EXPECT_LT((leastSquares(wide, Eigen::MatrixXd::Identity(3, 3)) - pseudoInverse).norm(), 1e-10);
+  EXPECT_NEAR(wide.row(0).dot(leastSquares(wide, 2 * b)), 2 * b(0), 1e-10) << "an expression of a vector";
 }
 
 TEST(LeastSquares, HoldsForEverySizeOfNumbersAndOfMatrices) {
