@@ -64,12 +64,32 @@ std::vector<std::string_view> arraysIn(std::string_view text) {
   return arrays;
 }
 
+// What could have been called: "; there is 'void Robot::move(const Pose&, double)', which takes 2 arguments".
+std::string candidateText(const Json& children) {
+  constexpr std::string_view kCandidate = "candidate: ", kExpects = "candidate expects ";
+  constexpr std::size_t kLongest = 200;  // templates fill the screen
+  std::string text;
+  for (const Json& child : children) {
+    const std::string note = tidy(child.at("message").get<std::string>());
+    const std::size_t expects = note.find(kExpects);
+    if (note.starts_with(kCandidate) && !text.empty()) return text + ", and others";
+    if (note.starts_with(kCandidate) && note.size() <= kLongest)
+      text = "; there is " + note.substr(kCandidate.size());
+    if (expects != note.npos && !text.empty())
+      text += ", which takes " +
+              note.substr(expects + kExpects.size(), note.find(',', expects) - expects - kExpects.size());
+  }
+  return text;
+}
+
 grading::CompileDiagnostic readMessage(const Json& json) {
   grading::CompileDiagnostic message;
   const std::string kind = json.at("kind").get<std::string>();
   message.severity = kind == "warning" ? "warning" : "error";
   message.rule = json.value("option", "");
   message.message = tidy(json.at("message").get<std::string>());
+  if (message.message.starts_with("no matching function") && json.contains("children"))
+    message.message += candidateText(json["children"]);
   const Json& locations = json.at("locations");
   if (!locations.empty()) {
     const Json& caret = locations.at(0).at("caret");

@@ -42,6 +42,27 @@ TEST(ParseCompilerJson, KeepsErrorsAndWarnings) {
   EXPECT_EQ(toString(messages[2]), "error: too bad");
 }
 
+TEST(ParseCompilerJson, NamesTheFunctionThatCouldBeCalled) {
+  const auto message = [](const std::string& notes) {
+    return parseCompilerJson(
+               R"([{"kind": "error", "locations": [], "message": "no matching function for call to ‘add(int)’", )"
+               R"("children": [)" +
+               notes + "]}]")
+        .at(0)
+        .message;
+  };
+  const std::string add = R"({"kind": "note", "message": "candidate: ‘void add(int, int)’"})",
+                    expects =
+                        R"(, {"kind": "note", "message": "  candidate expects 2 arguments, 1 provided"})";
+  const std::string start = "no matching function for call to 'add(int)'";
+  EXPECT_EQ(message(""), start);
+  EXPECT_EQ(message(add), start + "; there is 'void add(int, int)'");
+  EXPECT_EQ(message(add + expects), start + "; there is 'void add(int, int)', which takes 2 arguments");
+  EXPECT_EQ(message(add + expects + ", " + add),
+            start + "; there is 'void add(int, int)', which takes 2 arguments, and others");
+  EXPECT_EQ(message(R"({"message": "candidate: )" + std::string(300, 'x') + "\"}" + expects), start);
+}
+
 TEST(ParseCompilerJson, SurvivesAnythingElse) {
   for (const char* text : {"", "[", "[3]", "[{\"kind\": 3}]", "g++: fatal error: Killed", "[\"\xff\"]"})
     EXPECT_TRUE(parseCompilerJson(text).empty()) << text;
