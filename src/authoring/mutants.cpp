@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -376,6 +377,44 @@ std::string inOneLine(std::string_view text) {
   return join(words, " ");
 }
 
+// Those of the lines that are wanted.
+std::vector<Mutant> mutantsWhere(std::string_view source, const std::function<bool(int)>& isWanted) {
+  const std::string open = withoutUnnamedNamespaces(source);
+  const Code code(open);
+  const submission::TextPlaces places(open);
+  std::vector<Mutant> mutants;
+  std::set<std::tuple<std::size_t, std::size_t, std::string>> seen;
+  const auto add = [&](const Kind& kind, std::string_view function, Edit edit) {
+    if (!seen.emplace(edit.start, edit.end, edit.text).second) return;
+    const std::size_t first = edit.start == 0 ? 0 : open.rfind('\n', edit.start - 1) + 1;
+    const std::size_t last = std::min(open.find('\n', edit.end), open.size());
+    std::string before = open.substr(first, last - first);
+    const auto [line, column] = places.place(edit.start);
+    mutants.push_back(
+        {.change = std::string(kind.name),
+         .function = std::string(function),
+         .line = line,
+         .column = column,
+         .before = inOneLine(before),
+         .after = inOneLine(before.replace(edit.start - first, edit.end - edit.start, edit.text)),
+         .start = edit.start,
+         .end = edit.end,
+         .replacement = edit.text});
+  };
+  for (const submission::CppPiece& piece : submission::cppPieces(code)) {
+    if (piece.function.empty() || piece.isInternal || piece.function == "main") continue;
+    for (std::size_t i = piece.first; i < piece.last; ++i) {
+      if (code.start(i) <= piece.bodyStart || !isWanted(places.line(code.start(i)))) continue;
+      for (const Kind& kind : kKinds) {
+        Edits edits;
+        kind.find(code, i, edits);
+        for (Edit& edit : edits) add(kind, piece.function, std::move(edit));
+      }
+    }
+  }
+  return mutants;
+}
+
 }  // namespace
 
 std::vector<std::string> kindsOfChanges() {
@@ -405,40 +444,11 @@ std::vector<Mutant> mutantsOf(std::string_view solution, const std::string& file
   std::set<int> lines;  // of the regions
   for (const auto& block : submission::solutionBlocks(solution, file))
     for (const submission::BlockLine& line : block) lines.insert(line.number);
-  const std::string open = withoutUnnamedNamespaces(solution);
-  const Code code(open);
-  const submission::TextPlaces places(open);
-  std::vector<Mutant> mutants;
-  std::set<std::tuple<std::size_t, std::size_t, std::string>> seen;
-  const auto add = [&](const Kind& kind, std::string_view function, Edit edit) {
-    if (!seen.emplace(edit.start, edit.end, edit.text).second) return;
-    const std::size_t first = edit.start == 0 ? 0 : open.rfind('\n', edit.start - 1) + 1;
-    const std::size_t last = std::min(open.find('\n', edit.end), open.size());
-    std::string before = open.substr(first, last - first);
-    const auto [line, column] = places.place(edit.start);
-    mutants.push_back(
-        {.change = std::string(kind.name),
-         .function = std::string(function),
-         .line = line,
-         .column = column,
-         .before = inOneLine(before),
-         .after = inOneLine(before.replace(edit.start - first, edit.end - edit.start, edit.text)),
-         .start = edit.start,
-         .end = edit.end,
-         .replacement = edit.text});
-  };
-  for (const submission::CppPiece& piece : submission::cppPieces(code)) {
-    if (piece.function.empty() || piece.isInternal || piece.function == "main") continue;
-    for (std::size_t i = piece.first; i < piece.last; ++i) {
-      if (code.start(i) <= piece.bodyStart || !lines.contains(places.line(code.start(i)))) continue;
-      for (const Kind& kind : kKinds) {
-        Edits edits;
-        kind.find(code, i, edits);
-        for (Edit& edit : edits) add(kind, piece.function, std::move(edit));
-      }
-    }
-  }
-  return mutants;
+  return mutantsWhere(solution, [&](int line) { return lines.contains(line); });
+}
+
+std::vector<Mutant> mutantsOfFile(std::string_view source) {
+  return mutantsWhere(source, [](int) { return true; });
 }
 
 }  // namespace rex::authoring

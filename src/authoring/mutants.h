@@ -25,6 +25,9 @@ struct Mutant {
 /// They need not compile. Throws Error like submission::solutionBlocks().
 [[nodiscard]] std::vector<Mutant> mutantsOf(std::string_view solution, const std::string& file);
 
+/// The same in all plain functions of a file without regions, but main().
+[[nodiscard]] std::vector<Mutant> mutantsOfFile(std::string_view source);
+
 /// The text with one of its mutants.
 [[nodiscard]] std::string mutated(std::string_view solution, const Mutant& mutant);
 

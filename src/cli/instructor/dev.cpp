@@ -44,6 +44,21 @@ void addDevCheck(CLI::App* dev, Action& action) {
       [&action, options] { action = [options](const Project& p) { return devCheck(p, *options); }; });
 }
 
+void addDevViva(CLI::App* dev, Action& action) {
+  const auto options = std::make_shared<VivaOptions>();
+  CLI::App* command =
+      addVerb(dev, "viva", "Ask about three lines of a person's own file, with answers",
+              "Example: scripts/rex dev viva 01 classroom/ada/01-kinematics/main.cpp\n\n"
+              "Each question changes a line by a sign, an index or the like, and the answer is the visible\n"
+              "check that fails then, and its message. For a talk of five minutes about own work.\n"
+              "Exit code 1: there are fewer than three.");
+  addExercise(command, options->exercise);
+  command->add_option("FILE", options->file, "the main.cpp that was handed in")->type_name("")->required();
+  addLevel(command, options->level);
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return devViva(p, *options); }; });
+}
+
 void addDevStrip(CLI::App* dev, Action& action) {
   struct Words {
     std::string exercise, out;
@@ -182,6 +197,7 @@ void addDev(CLI::App* dev, Action& action) {
   addDevRelease(dev, action);
   addDevSite(dev, action);
   addDevStats(dev, action);
+  addDevViva(dev, action);
 }
 
 }  // namespace rex::cli

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/exit_code.h"
 #include "cli/project.h"
+#include "sandbox/cell.h"
 
 /// The verbs of `rex dev`, one file each. They print for people. They throw UsageError for names that do
 /// not exist, and Error if the project or the machine is broken.
@@ -30,6 +32,14 @@ struct CheckOptions {
 /// Runs the gates that exercises must pass; a bad exercise.toml counts as a gate that is not passed. Returns
 /// kBelow if one is not, kGraderFault if a grader does not build; the other exercises are still tested.
 ExitCode devCheck(const Project& project, const CheckOptions& options);
+
+struct VivaOptions {
+  std::string exercise{};
+  std::filesystem::path file{};  ///< that was handed in
+  std::optional<sandbox::Level> level{};
+};
+/// Prints questions about a person's own file, with answers. Returns kBelow if there are fewer than three.
+ExitCode devViva(const Project& project, const VivaOptions& options);
 
 /// Makes main.cpp of that exercise from its solution.cpp.
 ExitCode devStrip(const Project& project, const std::string& name);
