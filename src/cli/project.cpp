@@ -1,7 +1,10 @@
 #include "cli/project.h"
 
+#include <cstdlib>
+
 #include "base/error.h"
 #include "base/folders.h"
+#include "base/sha256.h"
 #include "base/text.h"
 #include "cli/build_on_demand.h"
 #include "cli/out_folder.h"
@@ -100,10 +103,19 @@ std::string shown(const fs::path& path) {
   return relative.starts_with("..") ? path.lexically_normal().string() : relative;
 }
 
+fs::path prefixFile(const Project& project) {
+  if (project.installed.empty()) return {};
+  const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
+  fs::path folder = cache != nullptr ? fs::path(cache) : fs::path(home == nullptr ? "" : home) / ".cache";
+  if (!folder.is_absolute()) folder = project.root / ".rex";
+  constexpr std::size_t kDigits = 12;
+  return folder / "rex" / sha256(REX_VERSION + project.installed.string()).substr(0, kDigits) / "prefix.h";
+}
+
 submission::Toolchain prepare(const Project& project, const ExerciseInfo& exercise) {
   bringUpToDate(project, {exercise.name + "_ready"}, "the grader of " + exercise.name);
   submission::Toolchain toolchain = submission::readToolchain(project.buildFolder(exercise) / "build.json");
-  if (!project.installed.empty()) toolchain.prefix = project.root / kPrefixFile;
+  if (!project.installed.empty()) toolchain.prefix = prefixFile(project);
   return toolchain;
 }
 

@@ -59,9 +59,13 @@ inline constexpr const char* kNoCourseHere =
     "There are no exercises here. `rex init course` makes a folder with all of them, to work in.\n"
     "Other commands: rex --help";
 
-/// Files of a course folder: the one that says what was handed out, which marks the folder, and the one that
-/// programs are compiled from, see submission::prefixFlags().
-inline constexpr const char *kCourseFile = ".rex/course.json", *kPrefixFile = ".rex/prefix.h";
+/// The file of a course folder that says what was handed out, which marks the folder.
+inline constexpr const char* kCourseFile = ".rex/course.json";
+
+/// What programs are compiled from with an installed rex, see submission::prefixFlags(): a file of 170 MB in
+/// the user's XDG_CACHE_HOME, or ~/.cache, for all folders; without a home, in the project's. Empty in a
+/// source tree, whose build has its own.
+[[nodiscard]] std::filesystem::path prefixFile(const Project& project);
 
 /// The path as a user in the current folder would type it.
 [[nodiscard]] std::string shown(const std::filesystem::path& path);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/process.h"
@@ -202,9 +203,11 @@ std::vector<std::string> prefixFlags(const fs::path& prefix, std::string_view so
 void makePrefix(const fs::path& prefix, const Toolchain& toolchain, double longest) {
   const std::string text = "#include \"course/course.h\"\n";
   if (!prefixFlags(prefix, text, toolchain.flags).empty()) return;
-  writeTextFile(prefix, text);
+  std::error_code failure;
+  fs::create_directories(prefix.parent_path(), failure);
+  writeTextFile(prefix, text);  // which says why not
   const auto started = fs::file_time_type::clock::now();
-  const fs::path made = precompiled(prefix), half = prefix.string() + ".new";
+  const fs::path made = precompiled(prefix), half = fmt::format("{}.{}.new", prefix.string(), ::getpid());
   std::vector<std::string> command = {toolchain.compiler};
   command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
   command.insert(command.end(),

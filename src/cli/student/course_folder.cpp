@@ -191,16 +191,23 @@ void requireInstalled(const Project& project, const std::string& command) {
        .wanted = fmt::format("`{}/exercises` to work in, or a rex that was installed", shown(project.root))});
 }
 
-void prepareTools(const Project& course) {
-  writeCompileCommands(course);
+void prepareCompiler(const Project& project) {
   try {
     const ProgressLine line([] { return std::string("preparing the compiler, once"); });
     submission::makePrefix(
-        course.root / kPrefixFile,
-        submission::readProgramToolchain(course.build / "student" / "program.json").toolchain);
+        prefixFile(project),
+        submission::readProgramToolchain(project.build / "student" / "program.json").toolchain);
   } catch (const Error& error) {
     note(wrap(fmt::format("Compiling will take longer: {}", error.what()), 2, 0));
   }
+}
+
+void prepareTools(const Project& course) {
+  writeCompileCommands(course);
+  std::error_code ignored;
+  for (const char* ending : {"", ".gch", ".d", ".gch.made-from"})  // of 0.3.0, in each folder
+    fs::remove(course.root / (std::string(".rex/prefix.h") + ending), ignored);
+  prepareCompiler(course);
 }
 
 }  // namespace rex::cli

@@ -33,8 +33,11 @@ struct HandedOut {
 /// Throws UsageError unless this rex is installed; `command` is for the message.
 void requireInstalled(const Project& project, const std::string& command);
 
-/// Writes compile_commands.json for editors, and precompiles what programs include first, which takes some
-/// seconds. Prints a note if the compiler cannot do that: everything works without, but slower.
+/// Precompiles what programs include first, which takes some seconds, unless prefixFile() is current. Prints
+/// a note if the compiler cannot do that: everything works without, but slower.
+void prepareCompiler(const Project& project);
+
+/// The same, and writes compile_commands.json for editors.
 void prepareTools(const Project& course);
 
 }  // namespace rex::cli

@@ -17,6 +17,7 @@
 #include "base/text_file.h"
 #include "cli/build_on_demand.h"
 #include "cli/out_folder.h"
+#include "cli/student/course_folder.h"
 #include "cli/student/student_file.h"
 #include "cli/terminal.h"
 #include "grading/limits.h"
@@ -87,14 +88,15 @@ std::optional<OwnProgram> buildOwnProgram(const Project& project, const fs::path
   submission::ProgramToolchain program =
       submission::readProgramToolchain(project.build / "student" / "program.json");
   submission::Toolchain& toolchain = program.toolchain;
-  if (!project.installed.empty()) toolchain.prefix = project.root / kPrefixFile;
+  if (!project.installed.empty()) toolchain.prefix = prefixFile(project);
   const std::string source = readTextFile(file);
-  if (!toolchain.prefix.empty() && submission::opensWithCourseHeader(source, toolchain.flags))
+  if (!toolchain.prefix.empty() && submission::opensWithCourseHeader(source, toolchain.flags)) {
     bringUpToDate(project, {"rex_student_prefix"}, "what programs start from");
+    // Without the compiled file, an attempt has failed: `rex update` tries again.
+    const bool isNew = !fs::exists(toolchain.prefix), isMade = fs::exists(toolchain.prefix.string() + ".gch");
+    if (!project.installed.empty() && (isNew || isMade)) prepareCompiler(project);
+  }
   const bool hasPrefix = !submission::prefixFlags(toolchain.prefix, source, toolchain.flags).empty();
-  if (!hasPrefix && !project.installed.empty() && fs::exists(toolchain.prefix) &&
-      submission::opensWithCourseHeader(source, toolchain.flags))
-    note("This folder was prepared for another rex: `rex update` makes compiling fast again.");
   toolchain.flags.insert(toolchain.flags.end(), {"-I", file.parent_path().string()});
   OwnProgram result{.madeFrom = {file, project.build / "student" / "program.json"}};
   const auto chooseLibraries = [&](const submission::StudentObject& object) {

@@ -1,5 +1,7 @@
 #include "cli/student/course_folder.h"
 
+#include <cstdlib>
+
 #include <nlohmann/json.hpp>
 
 #include "base/process.h"
@@ -16,6 +18,7 @@ class CourseFolder : public TemplateProject {
  protected:
   void SetUp() override {
     TemplateProject::SetUp();
+    ::setenv("XDG_CACHE_HOME", (root() / "cache").c_str(), 1);
     fs::create_directories(root() / "share" / "course" / ".vscode");
     write(root() / "share" / "course" / "README.md", "Exercises\n");
     write(root() / "share" / "course" / ".vscode" / "tasks.json", "{}\n");
@@ -86,6 +89,22 @@ TEST_F(CourseFolder, WorksWithoutAPreparedCompiler) {
   EXPECT_THAT(ended.output, HasSubstr("has 1 exercise, in"));
   EXPECT_THAT(flat(ended.error),
               HasSubstr("Compiling will take longer: /bin/false: the compiler cannot read the library"));
+}
+
+// Until 0.3.0 each folder had its own.
+TEST_F(CourseFolder, SharesThePreparedCompilerWithOthersOfItsUser) {
+  write(course() / ".rex" / "prefix.h", "old");
+  write(course() / ".rex" / "prefix.h.gch", "old");
+  EXPECT_EQ(installed({"init", course().string()}).code, 0);
+  EXPECT_FALSE(fs::exists(course() / ".rex" / "prefix.h"));
+  EXPECT_FALSE(fs::exists(course() / ".rex" / "prefix.h.gch"));
+  const Project here{.root = course(), .build = build(), .installed = root()};
+  EXPECT_EQ(fileText(prefixFile(here)), "#include \"course/course.h\"\n");
+  EXPECT_THAT(prefixFile(here).string(), ::testing::StartsWith((root() / "cache" / "rex").string()));
+  const Project other{.root = course(), .build = build(), .installed = "elsewhere"};
+  EXPECT_NE(prefixFile(other), prefixFile(here)) << "another rex";
+  const Project tree{.root = root(), .build = build()};
+  EXPECT_EQ(prefixFile(tree), "");
 }
 
 TEST_F(CourseFolder, IsMadeByAnInstalledRexOnly) {
