@@ -25,6 +25,7 @@ namespace {
 
 struct WatchOptions {
   std::string exercise;
+  std::string check;  ///< see TestOptions; empty: all
   bool poll = false;  ///< do not use inotify
   bool open = false;  ///< also as a page
 };
@@ -104,7 +105,7 @@ std::string watchOne(const Project& project, const ExerciseInfo& exercise, const
   const std::filesystem::path main = exercise.folder / "main.cpp";
   FileWatcher watcher(main, options.poll ? FileWatcher::Method::kPolling : FileWatcher::Method::kInotify);
   ResultPage page(project, exercise, address);
-  WatchKeys keys(project, exercise, keyboard, watcher);
+  WatchKeys keys(project, exercise, keyboard, watcher, options.check);
   say(fmt::format("watching {} by {}; press Ctrl-C to end", shown(main), watcher.describe()));
   std::fflush(stdout);
   for (;;) {
@@ -130,8 +131,8 @@ ExitCode watch(const Project& project, const WatchOptions& options) {
   if (options.open) address.emplace();
   ExitCode code = ExitCode::kBelow;
   std::string name = project.exercise(options.exercise).name;
-  while (!name.empty())
-    name = watchOne(project, project.exercise(name), options, keyboard, address ? &*address : nullptr, code);
+  for (WatchOptions one = options; !name.empty(); one.check.clear())
+    name = watchOne(project, project.exercise(name), one, keyboard, address ? &*address : nullptr, code);
   return code;
 }
 
@@ -146,7 +147,8 @@ void addWatch(CLI::App* command, Action& action) {
       "of failed ones, and what has changed since the last save; only this machine can read it.\n"
       "In a terminal single keys give hints and more; elsewhere it ends at the full score.");
   addExercise(command, options->exercise);
-  addOptions(command, {{"--open", options->open, "also show the exercise as a page that renews itself"},
+  addOptions(command, {{"--check", options->check, "NAME", "only this check, part or failed function"},
+                       {"--open", options->open, "also show the exercise as a page that renews itself"},
                        {"--poll", options->poll, "poll the file instead of using inotify"}});
   command->callback(
       [&action, options] { action = [options](const Project& p) { return watch(p, *options); }; });

@@ -1,11 +1,14 @@
 #include "cli/student/watch_keys.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 
 #include <fmt/format.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include "base/error.h"
 #include "base/text.h"
 #include "cli/student/exercise_commands.h"
 #include "cli/student/progress.h"
@@ -95,33 +98,46 @@ bool WatchKeys::chooseCheck() {
   for (std::size_t k = 0; k < checks.size(); ++k)
     say(fmt::format(" {:2}  {}", k + 1,
                     wrap(fmt::format("{} [{}]", escapeForTerminal(checks[k].title), checks[k].id), 5, 5)));
-  fmt::print("number and Enter, or Enter alone to go back: ");
-  const std::optional<std::string> typed = readDigits();
+  fmt::print("number or name and Enter, or Enter alone to go back: ");
+  const std::optional<std::string> typed = readWord();
   if (!typed) return true;
   if (typed->empty()) return false;
   const std::size_t number = parseNumber<std::size_t>(*typed).value_or(0);
-  if (number < 1 || number > checks.size()) {
-    say(fmt::format("There is no check {}.", number));
-    return false;
+  std::vector<std::string> ids;
+  for (const grading::CheckResult& check : checks) ids.push_back(check.id);
+  if (number >= 1 && number <= ids.size()) {
+    check_ = ids[number - 1];
+    return true;
   }
-  check_ = checks[number - 1].id;
-  return true;
+  if (std::find(ids.begin(), ids.end(), *typed) != ids.end()) {
+    check_ = *typed;
+    return true;
+  }
+  throw UsageError({.what = fmt::format("{} has no check '{}'", exercise_.name, *typed),
+                    .nearest = nearestNames(*typed, ids)});
 }
 
-// Reads and echoes digits until Enter; "" after any other key. Empty if the file was saved.
-std::optional<std::string> WatchKeys::readDigits() {
-  constexpr std::size_t kMost = 3;
-  std::string digits;
+// Reads and echoes a number or name until Enter; "" after a key that belongs to neither. Empty if the file
+// was saved.
+std::optional<std::string> WatchKeys::readWord() {
+  constexpr std::size_t kMost = 60;
+  constexpr char kDelete = 127;
+  std::string word;
   for (;;) {
     const std::optional<char> key = nextKey();
-    if (key && *key >= '0' && *key <= '9' && digits.size() < kMost) {
-      digits += *key;
+    if (key && (*key == kDelete || *key == '\b')) {
+      if (word.empty()) continue;
+      word.pop_back();
+      fmt::print("\b \b");
+    } else if (key && (std::isalnum(static_cast<unsigned char>(*key)) != 0 || *key == '-') &&
+               word.size() < kMost) {
+      word += *key;
       fmt::print("{}", *key);
-      continue;
+    } else {
+      say();
+      if (!key) return {};
+      return *key == '\n' || *key == '\r' ? word : "";
     }
-    say();
-    if (!key) return {};
-    return *key == '\n' || *key == '\r' ? digits : "";
   }
 }
 

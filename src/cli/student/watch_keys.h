@@ -35,12 +35,16 @@ class WatchKeys {
  public:
   enum class Wish { kGrade, kNext, kQuit };
 
-  /// Keeps references to all arguments.
+  /// Keeps references to all arguments but `check`.
   WatchKeys(const Project& project, const ExerciseInfo& exercise, const Keyboard& keyboard,
-            FileWatcher& watcher)
-      : project_(project), exercise_(exercise), keyboard_(keyboard), watcher_(watcher) {}
+            FileWatcher& watcher, std::string check)
+      : project_(project),
+        exercise_(exercise),
+        keyboard_(keyboard),
+        watcher_(watcher),
+        check_(std::move(check)) {}
 
-  /// The only check to grade; empty: all.
+  /// The only check, part or failed function to grade; empty: all.
   [[nodiscard]] const std::string& check() const { return check_; }
 
   /// Handles keys until the file is saved, or a key asks for another grading, the next exercise or the end.
@@ -52,7 +56,7 @@ class WatchKeys {
   std::optional<char> nextKey();
   bool answer(char key);
   bool chooseCheck();
-  std::optional<std::string> readDigits();
+  std::optional<std::string> readWord();
   bool askAndReset();
 
   const Project& project_;
