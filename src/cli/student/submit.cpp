@@ -53,12 +53,14 @@ std::string receiptOf(const std::vector<HandedIn>& files) {
   return Json{{"schema", "rex-receipt/1"}, {"tool", REX_VERSION}, {"files", list}}.dump(2) + "\n";
 }
 
-void warnUnlessTested(const HandedIn& file, const AllProgress& all) {
+void sayLastTest(const HandedIn& file, const AllProgress& all) {
   const auto found = all.exercises.find(file.exercise.name);
-  if (found != all.exercises.end() && found->second.fileSha256 == file.sha256) return;
-  note(wrap(fmt::format("This version of {} was not tested: scripts/rex test {}",
-                        shown(file.exercise.folder / "main.cpp"), file.exercise.name),
-            2, 0));
+  if (found == all.exercises.end() || found->second.fileSha256 != file.sha256)
+    return note(wrap(fmt::format("This version of {} was not tested: scripts/rex test {}",
+                                 shown(file.exercise.folder / "main.cpp"), file.exercise.name),
+                     2, 0));
+  say(fmt::format("{}: {} of {} points in its last test", file.exercise.name, found->second.points,
+                  found->second.maxPoints));
 }
 
 // Writes the zip file to hand in: EXERCISE/main.cpp of each exercise, and receipt.json.
@@ -85,7 +87,7 @@ ExitCode submit(const Project& project, const SubmitOptions& options) {
   submission::writeZip(options.out, entries);
   const AllProgress all = ProgressFile(project.root).read();
   for (const HandedIn& file : files) {
-    warnUnlessTested(file, all);
+    sayLastTest(file, all);
     say(fmt::format("{}  {}", file.sha256, file.name));
   }
   say(fmt::format("{} holds {} and a receipt with the hash above (SHA-256). Hand this file in.",

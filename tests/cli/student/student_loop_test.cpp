@@ -259,6 +259,7 @@ TEST_F(StudentLoop, HandsInTheListedFileWithItsHash) {
   recordTest(3);
   const Ended again = rex({"submit", "98", "-o", zip});
   EXPECT_EQ(again.error, "");
+  EXPECT_THAT(again.output, StartsWith("98-template: 3 of 3 points in its last test\n" + hash));
   EXPECT_EQ(fileText(zip), bytes) << "the same files, the same bytes";
 }
 
