@@ -503,7 +503,6 @@ std::string Check::shortfallText(const Shortfall& shortfall) const {
   if (!shortfall.deviation.empty()) text += ", " + shortfall.deviation;
   if (!shortfall.tolerance.empty()) text += fmt::format(" (tolerance {})", shortfall.tolerance);
   if (!shortfall.worst.empty()) text += ", at worst " + shortfall.worst;
-  if (!shortfall.input.empty()) text += "; input: " + shortfall.input;
   text += fmt::format(" (seed {})", seed_);
   return shortfall.question.empty() ? text : text + ". " + shortfall.question;
 }

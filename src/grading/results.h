@@ -40,7 +40,7 @@ struct CheckResult {
   std::optional<Outcome> status{};  ///< nothing: not run
   int points = 0;
   int maxPoints = 0;
-  std::string message{};   ///< one readable line; empty if passed
+  std::string message{};   ///< one readable line, without the input; empty if passed
   std::string property{};  ///< the property that did not hold
   std::string expected{};  ///< with unit; this and the next three are empty for hidden checks
   std::string got{};

@@ -28,8 +28,10 @@ std::string statusText(const grading::CheckResult& check) {
 }
 
 std::string checkMessage(const grading::CheckResult& check, const std::string& file) {
-  const std::string message = shownText(check.message.empty() ? statusText(check) : check.message);
-  return check.line > 0 ? fmt::format("{}\n{}:{}", message, file, check.line) : message;
+  std::string message = shownText(check.message.empty() ? statusText(check) : check.message);
+  if (check.line > 0) message += fmt::format("\n{}:{}", file, check.line);
+  if (!check.input.empty()) message += "\ninput: " + shownText(check.input);
+  return message;
 }
 
 std::string compileText(const grading::GradeResult& result) {

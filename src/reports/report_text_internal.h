@@ -26,7 +26,8 @@ inline constexpr const char* kGraderFailed =
 /// "pass", "time limit", "not run".
 [[nodiscard]] std::string statusText(const grading::CheckResult& check);
 
-/// What a student reads about a visible check that did not pass: message, and place in `file`.
+/// What a student reads about a visible check that did not pass: message, line of `file`, and
+/// input.
 [[nodiscard]] std::string checkMessage(const grading::CheckResult& check, const std::string& file);
 
 /// What the compiler said, a line for each message; or why the file was refused.

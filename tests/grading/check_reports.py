@@ -81,7 +81,8 @@ def message_of(check, result):
     text = shown(check["message"] or check["status"].replace("_", " "))
     files = result["submission"]["files"]
     name = shown(files[0]["name"]) if files else "main.cpp"
-    return f"{text}\n{name}:{check['line']}" if check["line"] > 0 else text
+    place = f"\n{name}:{check['line']}" if check["line"] > 0 else ""
+    return text + place + (f"\ninput: {shown(check['input'])}" if check["input"] else "")
 
 
 class Comparison:

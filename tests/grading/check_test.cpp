@@ -72,14 +72,13 @@ TEST(Check, PassesWhenEveryRequirementHolds) {
   EXPECT_EQ(result.message, "");
 }
 
-TEST(Check, SaysPropertyGotWantedToleranceUnitInputAndSeed) {
+TEST(Check, SaysPropertyGotWantedToleranceUnitAndSeedAndKeepsTheInputApart) {
   const CheckResult result = judge([](Check& check) {
     check.input("q = 0");
     check.near("position", Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(1, 2, 3.5), 1e-3, "m");
   });
   EXPECT_EQ(result.message,
-            "position: got (1, 2, 3) m, wanted (1, 2, 3.5) m, off by 0.5 m (tolerance 0.001 m); input: q = 0 "
-            "(seed 7)");
+            "position: got (1, 2, 3) m, wanted (1, 2, 3.5) m, off by 0.5 m (tolerance 0.001 m) (seed 7)");
   EXPECT_EQ(result.property, "position");
   EXPECT_EQ(result.got, "(1, 2, 3) m");
   EXPECT_EQ(result.expected, "(1, 2, 3.5) m");

@@ -19,7 +19,8 @@ using grading::CheckResult;
 using grading::Group;
 using grading::Outcome;
 
-constexpr std::size_t kIndent = 13;  // the column at which titles begin
+constexpr std::size_t kTitles = 13;  // the column at which titles begin
+constexpr std::size_t kIndent = 4;   // below messages
 
 std::string verdict(const CheckResult& check) {
   if (!check.status) return paint(Colour::kYellow, " -  ");
@@ -27,8 +28,17 @@ std::string verdict(const CheckResult& check) {
   return check.points > 0 ? paint(Colour::kYellow, "part") : paint(Colour::kRed, "FAIL");
 }
 
-void sayIndented(const std::string& text) {
-  say(std::string(kIndent, ' ') + wrap(escapeForTerminal(text), kIndent, kIndent));
+// Often many numbers, which must not push the question off the screen.
+void sayInput(const std::string& input) {
+  constexpr std::size_t kMostLines = 4;
+  if (input.empty()) return;
+  const std::string text =
+      std::string(kIndent, ' ') + wrap("input: " + escapeForTerminal(input), kIndent, kIndent);
+  std::vector<std::string_view> lines = splitLines(text);
+  const bool isCut = lines.size() > kMostLines;
+  lines.resize(std::min(lines.size(), kMostLines));
+  for (const std::string_view line : lines) say(line);
+  if (isCut) say(fmt::format("{:{}}... (the result has the whole input)", "", kIndent));
 }
 
 // How close a passed check came to its limit: for those who look at one check.
@@ -71,39 +81,38 @@ std::string lineOf(const CheckResult& check, const std::string& remark) {
   const std::string hidden = check.group == Group::kHidden ? ", hidden" : "";
   const auto title = fmt::format("{} [{}{}]{}", escapeForTerminal(check.title), check.id, hidden, remark);
   return fmt::format(" {} {:2}/{:<2}  {}", verdict(check), check.points, check.maxPoints,
-                     wrap(title, kIndent, kIndent));
+                     wrap(title, kTitles, kTitles));
 }
 
-void printInFull(const CheckResult& check, const submission::Submission& graded,
-                 const std::filesystem::path& folder, bool isWhole) {
-  say(lineOf(check, marginOf(check, isWhole)));
-  if (check.status == Outcome::kPass || check.message.empty()) return;
-  sayIndented(check.message);
+void printMessage(const CheckResult& check, const submission::Submission& graded,
+                  const std::filesystem::path& folder) {
+  const std::string start = fmt::format("[{}] ", check.id);
+  say("\n" + start + wrap(escapeForTerminal(check.message), kIndent, start.size()));
   sayPlace(check, graded);
+  sayInput(check.input);
   sayEvidence(check, folder);
 }
 
-// Of failed checks only the first one in full, unless all are wanted. Returns the number of the others.
+// The list of all, then the messages where eyes rest: of the first failed check, unless all are wanted.
+// Returns the number of messages left out.
 int printChecks(const ExerciseInfo& exercise, const submission::Submission& graded,
                 const std::filesystem::path& folder, const ReportView& view) {
   const std::vector<CheckResult>& checks = graded.result.checks;
-  bool isFirst = true;
-  int shortened = 0;
+  std::vector<const CheckResult*> explained;
   for (const submission::ExercisePart& part : exercise.parts) {
     const auto isOfPart = [&](const CheckResult& check) { return check.part == part.id; };
     if (std::none_of(checks.begin(), checks.end(), isOfPart)) continue;
     say(paint(Colour::kBold, part.title));
     for (const CheckResult& check : checks) {
       if (!isOfPart(check)) continue;
-      if (!hasFailed(check) || view.inFull || std::exchange(isFirst, false)) {
-        printInFull(check, graded, folder, view.isWhole);
-      } else {
-        say(lineOf(check, ""));
-        ++shortened;
-      }
+      say(lineOf(check, marginOf(check, view.isWhole)));
+      if (check.status != Outcome::kPass && !check.message.empty()) explained.push_back(&check);
     }
   }
-  return shortened;
+  const std::size_t shown = view.inFull ? explained.size() : std::min<std::size_t>(explained.size(), 1);
+  for (std::size_t k = 0; k < shown; ++k) printMessage(*explained[k], graded, folder);
+  if (shown > 0) say();
+  return static_cast<int>(explained.size() - shown);
 }
 
 // The ids of checks of `now` whose verdict is `passed`, and was the opposite before.
