@@ -97,9 +97,6 @@ inline std::vector<WrongBelief> wrongSmoothing(const CarRun& run, const std::vec
   const char* control = "Is it the control of another step? controls[t] leads from t to t + 1.";
   return {
       {"Is nothing changed by what was seen later?", now},
-      {"Is the gain transposed?", pulledAlong(now, moved, later, transposed(gain))},
-      {"Is the filter's belief at t + 1 used? The smoothed one knows more.",
-       pulledAlong(now, moved, filtered[t + 1], gain)},
       {"Is the predicted covariance without Q?", pulledAlong(now, still, later, gainWith(still.covariance))},
       {"Is the gain that of a car that does not turn, without A?",
        pulledAlong(now, moved, later, product(now.covariance, rex::inverse(moved.covariance)))},

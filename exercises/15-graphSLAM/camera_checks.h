@@ -102,34 +102,18 @@ inline Projection byColumns(const Projection& P) {
   return other;
 }
 
-/// P as it is for points and pixels around their means, in units of the mean distance from there.
-inline Projection forCentred(const CameraView& view) {
-  const auto unitsOf = [](const Eigen::MatrixXd& x) {
-    const Eigen::VectorXd mean = x.rowwise().mean();
-    const auto d = static_cast<double>(x.rows());
-    const double unit = (x.colwise() - mean).colwise().norm().mean() / std::sqrt(d);
-    Eigen::MatrixXd back = unit * Eigen::MatrixXd::Identity(x.rows() + 1, x.rows() + 1);
-    back.rightCols(1) << mean, 1;
-    return back;
-  };
-  const Eigen::MatrixXd pixels = rex::inverse(unitsOf(view.pixels));
-  return pixels * view.P * unitsOf(view.points);
-}
-
 inline void projectsExactly(rex::grading::Check& check, Student& student, const CameraView& view) {
   describeView(check, "no noise", view);
   const Projection P = student.projectionFromPoints(view.points, view.pixels);
   check.shape("P of projectionFromPoints", P, 3, 4);
   const auto shown = check.show([&] { return reprojectionSeen(view, P); });
   const Projection swapped = Eigen::Vector3d(1, 1, -1).asDiagonal() * view.P;
-  check.near(
-      "pixels of the points by P of projectionFromPoints", pixelsBy(P, view.points), view.pixels, 1e-3,
-      {{"Are points and pixels normalised, but P not brought back?", pixelsBy(forCentred(view), view.points)},
-       {"Are the twelve numbers written column by column? The equations have them row by row.",
-        pixelsBy(byColumns(view.P), view.points)},
-       {"Has the last row of P the wrong sign? Look at the signs of your equations.",
-        pixelsBy(swapped, view.points)}},
-      "pixels");
+  check.near("pixels of the points by P of projectionFromPoints", pixelsBy(P, view.points), view.pixels, 1e-3,
+             {{"Are the twelve numbers written column by column? The equations have them row by row.",
+               pixelsBy(byColumns(view.P), view.points)},
+              {"Has the last row of P the wrong sign? Look at the signs of your equations.",
+               pixelsBy(swapped, view.points)}},
+             "pixels");
 }
 
 inline void projectsNearly(rex::grading::Check& check, Student& student, const CameraView& view) {
@@ -145,28 +129,19 @@ inline void projectsNearly(rex::grading::Check& check, Student& student, const C
 inline void standsThere(rex::grading::Check& check, Student& student, const CameraView& view) {
   check.input("the P of a camera", {{"P", view.P}});
   const Eigen::Matrix3d M = view.P.leftCols<3>();
-  const Eigen::Vector3d last = view.P.col(3), got = student.cameraPosition(view.P);
-  check.near(
-      "position of cameraPosition", got, view.position, 1e-6 * view.position.norm(),
-      {{"Is the left part of P taken for a rotation? The lens is in it: its inverse is not its transpose.",
-        -M.transpose() * last},
-       {"Is it the last column of P, as if P began with the identity?", last},
-       {"Is it the direction in which the camera looks?", M.row(2).transpose()}},
-      "m");
+  const Eigen::Vector3d got = student.cameraPosition(view.P);
+  check.near("position of cameraPosition", got, view.position, 1e-6 * view.position.norm(),
+             {{"Is it the direction in which the camera looks?", M.row(2).transpose()}}, "m");
 }
 
 inline void errsInPixels(rex::grading::Check& check, Student& student, const CameraView& view) {
   check.input("6 points", {{"P", view.P}, {"points", view.points}, {"pixels", view.pixels}});
   const Eigen::Matrix2Xd got = student.reprojectionErrors(view.P, view.points, view.pixels),
-                         by = pixelsBy(view.P, view.points), wanted = by - view.pixels;
-  const Eigen::Matrix2Xd flat = (view.P * view.points.colwise().homogeneous()).topRows(2);
+                         wanted = pixelsBy(view.P, view.points) - view.pixels;
   Projection still = view.P;
   still.col(3).setZero();
   check.near("errors of reprojectionErrors", got, wanted, 1e-6,
-             {{"Is P (X, 1) not divided by its third number?", flat - view.pixels},
-              {"Are these the pixels by P? Those given have to be subtracted.", by},
-              {"Is the last column of P left out?", pixelsBy(still, view.points) - view.pixels}},
-             "pixels");
+             {{"Is the last column of P left out?", pixelsBy(still, view.points) - view.pixels}}, "pixels");
 }
 
 /// The camera turned, moved and with another lens: errors of tens of pixels.
