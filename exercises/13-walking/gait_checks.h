@@ -123,8 +123,6 @@ inline void impactFits(rex::grading::Check& check, Student& student, const Walke
   check.input(described(walker, x));
   const Eigen::Vector4d after = student.impactOf(walker, x);
   check.shape("state after impactOf", after, 4, 1);
-  const auto stays = check.suspect(
-      "Are the legs not exchanged? The first angle is that of the leg that lands.", x.head<2>());
   check.near("angles after impactOf", after.head<2>(), Eigen::Vector2d(x[1], x[0]), 1e-12, "rad");
   const LegMasses old = massesOf(walker, x), now = massesOf(walker, after);
   const double m = walker.legMass;
@@ -146,11 +144,6 @@ inline void impactFits(rex::grading::Check& check, Student& student, const Walke
   const Eigen::Vector2d rates = rex::solve(ofRates, kept);
   const double size =
       (walker.hipMass + 2 * m) * std::pow(walker.a + walker.b, 2) * (x.tail<2>().norm() + rates.norm());
-  const auto swapped =
-      check.suspect("Are the rates only exchanged? The impact changes them.", Eigen::Vector2d(x[3], x[2]));
-  const auto unswapped =
-      check.suspect("Are the two rates in the wrong order?", Eigen::Vector2d(rates[1], rates[0]));
-  const auto usual = check.suspectUsualMistake(after.tail<2>(), rates, 1e-9);
   const Eigen::Vector2d got = momenta(now);
   check.near("angular momentum about the foot that lands, after impactOf", got[0], kept[0], 1e-10 * size,
              "kg m^2/s");
@@ -237,8 +230,7 @@ inline void checkStep(rex::grading::Check& check, Student& student, const KnownG
   check.that("stepFrom() returns the end of the step", end.has_value());
   {
     const auto shown = check.show([&] { return landingSeen(gait.walker, x, wanted.time, end->time); });
-    const auto when = check.suspect(questionAboutLanding(gait.walker, x, wanted.time, end->time),
-                                    Eigen::MatrixXd::Constant(1, 1, end->time));
+    const auto when = check.ask(questionAboutLanding(gait.walker, x, wanted.time, end->time));
     check.near("time of stepFrom", end->time, wanted.time, 1e-7, "s");
   }
   const auto shown = check.show([&] { return stepSeen(gait.walker, x, wanted, *end); });
@@ -269,8 +261,7 @@ inline void derivativeFits(rex::grading::Check& check, Student& student, const K
           .normalized();
   const Eigen::Matrix4d error = got - wanted.J;
   const bool isFixed = (error - drift * (drift.transpose() * error)).cwiseAbs().maxCoeff() < 1e-3 * size;
-  const auto fixed = check.suspect("Is the time of the step kept fixed? It depends on the start, too.",
-                                   isFixed ? got : Eigen::Matrix4d::Constant(NAN));
+  const auto fixed = check.ask("Is the time of the step kept fixed? It depends on the start, too.", isFixed);
   check.near("stepDerivative", got, wanted.J, 1e-4 * size);
 }
 
@@ -291,15 +282,14 @@ inline void gaitFits(rex::grading::Check& check, Student& student, const KnownGa
   const auto x = student.gaitNear(gait.walker, guess);
   check.that("gaitNear() finds the existing gait", x.has_value());
   check.shape("gait of gaitNear", *x, 4, 1);
-  const auto ofPaper =
-      check.suspect("Is it the gait of the default walker, whatever the walker is?", kPaperGait);
   check.near("gait of gaitNear", *x, gait.x, 1e-4);
   const rex::WalkerStep step = libraryOf(gait.walker).step(*x, 5);
   check.that("the walker steps from the gait of gaitNear()", step.status == rex::StepStatus::kStepped);
   check.near("state one step after the gait of gaitNear", step.after, *x, 1e-6);
-  const auto swing =
-      check.suspect("Are these eigenvalues of swingRate()? Wanted are those of stepDerivative().",
-                    sizesOf(rex::eigenvalues(libraryOf(gait.walker).derivativeJacobian(*x))));
-  check.near("multiplierSizes", student.multiplierSizes(gait.walker, *x), sizesOf(gait.cycle.multipliers),
-             .01);
+  // Gaits differ a little, and so do their multipliers.
+  const Eigen::VectorXd got = student.multiplierSizes(gait.walker, *x);
+  const Eigen::VectorXd ofRate = sizesOf(rex::eigenvalues(libraryOf(gait.walker).derivativeJacobian(*x)));
+  const auto swing = check.ask("Are these eigenvalues of swingRate()? Wanted are those of stepDerivative().",
+                               got.size() == 4 && (got - ofRate).cwiseAbs().maxCoeff() < .01);
+  check.near("multiplierSizes", got, sizesOf(gait.cycle.multipliers), .01);
 }

@@ -56,6 +56,7 @@ return result;
 
 // <variant lines_for_edges> caught by: border, stands-any
 // mistake: measures the distance from the infinite lines on which the edges lie.
+// ask: Is it the distance from an infinite line? An edge ends at its corners.
 // <solution borderDistance>
 const Eigen::Index k = corners.cols();
 double least = INFINITY;
@@ -67,6 +68,7 @@ return least;
 
 // <variant masses_forgotten> caught by: stands, stands-any
 // mistake: takes the mean position of all parts, whatever they weigh.
+// ask: Do all parts count the same, whatever their masses are?
 // <solution staticMargin>
 Eigen::Vector2d sum = Eigen::Vector2d::Zero();
 for (const MovingMass& part : robot) sum += part.p.head<2>();
@@ -74,6 +76,7 @@ return borderDistance(supportCorners(contacts), sum / static_cast<double>(robot.
 
 // <variant gravity_pulls_up> caught by: moment, moment-any
 // mistake: the slide as printed: gravity is added to the force instead of taken from it.
+// ask: Is the sign of gravity wrong? What counts is m (a - gravity), with gravity = (0, 0, -g).
 // <solution zeroMoment>
 // in place of: const Eigen::Vector3d force = part.mass * (part.a + Eigen::Vector3d(0, 0, g));
 const Eigen::Vector3d force = part.mass * (part.a + Eigen::Vector3d(0, 0, -g));
@@ -82,12 +85,35 @@ if (push >= 0) return std::nullopt;
 
 // <variant heights_from_zero> caught by: moment, moment-any
 // mistake: the ground is always at zero.
+// ask: Is the ground always at z = 0?
 // <solution zeroMoment>
 // in place of: sum += force.z() * part.p.head<2>() - (part.p.z() - groundHeight) * force.head<2>();
 sum += force.z() * part.p.head<2>() - part.p.z() * force.head<2>();
 
+// <variant forces_push_the_wrong_way> caught by: moment, moment-any
+// mistake: the moment of horizontal forces has the wrong sign.
+// ask: Do horizontal forces move the point the wrong way?
+// <solution zeroMoment>
+// in place of: sum += force.z() * part.p.head<2>() - (part.p.z() - groundHeight) * force.head<2>();
+sum += force.z() * part.p.head<2>() + (part.p.z() - groundHeight) * force.head<2>();
+
+// <variant weights_only> caught by: moment, moment-any
+// mistake: leaves out the moment of horizontal forces.
+// ask: Do the horizontal accelerations not count?
+// <solution zeroMoment>
+// in place of: sum += force.z() * part.p.head<2>() - (part.p.z() - groundHeight) * force.head<2>();
+sum += force.z() * part.p.head<2>();
+
+// <variant height_over_gravity> caught by: sways
+// mistake: omega^2 upside down.
+// ask: Is omega^2 = g / height upside down?
+// <solution swayed>
+// in place of: const double omega = std::sqrt(pendulum.g / pendulum.height);
+const double omega = std::sqrt(pendulum.height / pendulum.g);
+
 // <variant sways_like_a_clock> caught by: sways
 // mistake: a pendulum that hangs: cosine and sine.
+// ask: Does the pendulum hang? The solution of c'' = omega^2 (c - p) grows instead of oscillating.
 // <solution swayed>
 const double omega = std::sqrt(pendulum.g / pendulum.height), c = std::cos(omega * t),
              s = std::sin(omega * t);
@@ -96,8 +122,27 @@ return {p + c * (start.c - p) + s / omega * start.v, c* start.v - omega* s*(star
 // <variant omega_inverted> caught by: capture
 // shown by: capture
 // mistake: the velocity times omega instead of divided by it.
+// ask: Is v multiplied by omega instead of divided by it?
 // <solution capturePoint>
 return now.c + now.v * std::sqrt(pendulum.g / pendulum.height);
+
+// <variant captures_behind> caught by: capture
+// mistake: the velocity is subtracted.
+// ask: Is v subtracted? The point lies ahead of the motion.
+// <solution capturePoint>
+return now.c - now.v * std::sqrt(pendulum.height / pendulum.g);
+
+// <variant cart_by_euler> caught by: follows
+// mistake: only the first powers of the time step.
+// ask: Are the terms with step^2 and step^3 missing? The state must be exact.
+// <solution cartStep>
+return x + cart.step * Eigen::Vector3d(x[1], x[2], jerk);
+
+// <variant cart_without_cube> caught by: follows
+// mistake: the jerk does not move the cart within a time step.
+// <solution cartStep>
+const double h = cart.step;
+return {x[0] + h * x[1] + h * h / 2 * x[2], x[1] + h* x[2] + h* h / 2 * jerk, x[2] + h* jerk};
 
 // <variant calls_the_library> caught by: forbidden-call
 // mistake: takes gains and gait from the library.
@@ -120,6 +165,7 @@ return cycle.x;
 
 // <variant gains_shifted> caught by: gains, gains-any
 // mistake: the gains of the preview begin one time step too late.
+// ask: Do the gains of the preview begin one step too late?
 // <solution previewLaw>
 const Eigen::RowVector3d C(1, 0, -cart.height / cart.g);
 Eigen::Matrix3d A;
@@ -143,6 +189,7 @@ return law;
 
 // <variant errors_not_summed> caught by: follows
 // mistake: the law gives the jerk itself instead of its change.
+// ask: Is it the jerk that the law gives? It gives the change of the jerk, u_k - u_(k-1).
 // <solution followed>
 // in place of: double jerk = 0;
 // in place of: const double p = x[0] - cart.height / cart.g * x[2]; ... jerk -= law.Gi * (p - reference[k]) +
@@ -151,13 +198,23 @@ double jerk = -law.Gi * (x[0] - cart.height / cart.g * x[2] - reference[k]) - la
 // <variant preview_of_the_present> caught by: follows
 // shown by: follows
 // mistake: applies the first gain of the preview to a change of the reference that is already past.
+// ask: Does the preview begin one step too late? Gp[0] belongs to r_(k+1) - r_k.
 // <solution followed>
 // in place of: for (Eigen::Index j = 1; j <= law.Gp.size() && k + j < n; ... jerk += law.Gp[j - 1] *
 for (Eigen::Index j = 1; j <= law.Gp.size() && k + j - 1 < n; ++j)
   if (k + j > 1) jerk += law.Gp[j - 1] * (reference[k + j - 1] - reference[k + j - 2]);
 
+// <variant preview_of_the_day_after> caught by: follows
+// mistake: applies the first gain of the preview to the change after the next.
+// ask: Does the preview begin one step too early? Gp[0] belongs to r_(k+1) - r_k.
+// <solution followed>
+// in place of: for (Eigen::Index j = 1; j <= law.Gp.size() && k + j < n; ... jerk += law.Gp[j - 1] *
+for (Eigen::Index j = 1; j <= law.Gp.size() && k + j + 1 < n; ++j)
+  jerk += law.Gp[j - 1] * (reference[k + j + 1] - reference[k + j]);
+
 // <variant legs_not_exchanged> caught by: impact, step, other-steps, gait
 // mistake: the leg that stood is still the first after the impact.
+// ask: Are the legs not exchanged? The first angle is that of the leg that lands.
 // <solution impactOf>
 const double l = walker.a + walker.b, m = walker.legMass, c = std::cos(x[0] - x[1]);
 const double a = walker.a, b = walker.b;
@@ -170,8 +227,17 @@ return {x[0], x[1], rates[1], rates[0]};
 // <variant rates_kept> caught by: impact, step, other-steps, gait
 // shown by: step
 // mistake: the impact does nothing but swap the roles of the legs.
+// ask: Are the rates only exchanged? The impact changes them.
 // <solution impactOf>
 return {x[1], x[0], x[3], x[2]};
+
+// <variant rates_in_the_old_order> caught by: impact, step, other-steps, gait
+// mistake: the angles are exchanged, and the rates are not.
+// ask: Are the two rates in the wrong order?
+// <solution impactOf>
+// in place of: return {x[1], x[0], (behind2 * all - all2 * behind) / determinant, ... (all1 * behind
+return {x[1], x[0], (all1 * behind - behind1 * all) / determinant,
+        (behind2 * all - all2 * behind) / determinant};
 
 // <variant lands_behind> caught by: step
 // mistake: a swing foot that comes down behind the stance foot ends the step, too.
@@ -214,6 +280,7 @@ if (!lands(now) && lands(next) && next[1] > next[0]) return StepEnd{impactOf(wal
 
 // <variant steps_for_hours> caught by: step
 // mistake: a step may take any time.
+// ask: May a step take longer than 5 s?
 // <solution stepFrom>
 const auto lands = [&](const Eigen::Vector4d& at) { return at[0] + at[1] + 2 * walker.slope <= 0; };
 constexpr double h = 1e-3;
@@ -233,6 +300,7 @@ return std::nullopt;
 
 // <variant swings_on_below_ground> caught by: step
 // mistake: a fall is noticed only when the stance leg hangs straight down.
+// ask: Is a fall noticed when the hip reaches the ground?
 // <solution stepFrom>
 // in place of: if (std::abs(next[0] + walker.slope) >= M_PI / 2) return std::nullopt;
 if (std::abs(next[0]) >= M_PI) return std::nullopt;
@@ -256,6 +324,7 @@ return J;
 
 // <variant gait_of_the_paper_only> caught by: gait, other-gaits
 // mistake: the numbers of the paper, whatever the slope is.
+// ask: Is it the gait of the default walker, whatever the walker is?
 // <solution gaitNear>
 if (!stepFrom(walker, guess)) return std::nullopt;
 return Eigen::Vector4d(.218668802939, -.323388558059, -1.091826677490, -.377181558403);

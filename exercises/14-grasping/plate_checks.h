@@ -28,6 +28,7 @@ inline void isOnOutline(rex::grading::Check& check, const Plate& plate, const Pl
     inward = {-side.y(), side.x()};
   }
   check.atMost("distance of a finger of bestGrasp from the edges", least, 1e-6, "m");
+  const auto cornered = check.ask("Is a finger at a corner? There is no normal.", fromCorner < 1e-6);
   check.atLeast("distance of a finger of bestGrasp from the nearest corner", fromCorner, 0.002 - 1e-6, "m");
   const auto outward = check.suspect("Does the normal point out of the object?", -inward);
   check.near("normal of a finger of bestGrasp", finger.normal, inward, 1e-6);

@@ -3,12 +3,16 @@
 
 // <variant length_forgotten> caught by: wrenches, all-wrenches
 // mistake: torques in newton metres beside forces in newtons.
+// ask: Is the torque not divided by length?
 // <solution planarWrench>
 const Eigen::Vector2d arm = p - center;
 return {force.x(), force.y(), arm.x() * force.y() - arm.y() * force.x()};
+// <solution spatialWrench>
+wrench << force, (p - center).cross(force);
 
 // <variant torque_about_the_origin> caught by: wrenches, all-wrenches
 // mistake: takes the torque about the origin, whatever the center is.
+// ask: Is it the torque about the origin instead of the center?
 // <solution planarWrench>
 return {force.x(), force.y(), (p.x() * force.y() - p.y() * force.x()) / length};
 // <solution spatialWrench>
@@ -16,6 +20,7 @@ wrench << force, p.cross(force) / length;
 
 // <variant torque_as_printed> caught by: wrenches, all-wrenches
 // mistake: the product of slide 10:6 as it is printed, force x arm.
+// ask: Is it force x arm? The torque is arm x force.
 // <solution planarWrench>
 const Eigen::Vector2d arm = p - center;
 return {force.x(), force.y(), (force.x() * arm.y() - force.y() * arm.x()) / length};
@@ -40,12 +45,14 @@ forces.col(k) = n + std::tan(finger.friction) * (std::cos(angle) * a + std::sin(
 
 // <variant friction_of_the_whole_force> caught by: cones, any-cones
 // mistake: friction times the size of the force.
+// ask: Is friction multiplied by the size of the force? Only its component along the normal counts.
 // <solution inCone>
 // in place of: return across <= finger.friction * along + 1e-9 * force.norm();
 return along >= 0 && across <= finger.friction * force.norm() + 1e-9 * force.norm();
 
 // <variant pulls_too> caught by: cones, any-cones
 // mistake: forgets that a finger only pushes.
+// ask: May the component along the normal be negative in your code? A finger only pushes.
 // <solution inCone>
 const double along = std::abs(force.dot(finger.normal));
 return (force - force.dot(finger.normal) * finger.normal).norm() <=
@@ -53,6 +60,7 @@ return (force - force.dot(finger.normal) * finger.normal).norm() <=
 
 // <variant tolerance_in_newtons> caught by: cones, any-cones
 // mistake: the tolerance is in newtons instead of relative to the size of the force.
+// ask: Is the tolerance in newtons? It should be relative to the size of the force.
 // <solution inCone>
 const double normal = force.dot(finger.normal), along = (force - normal * finger.normal).norm();
 return along <= finger.friction * normal + 1e-9;
@@ -65,6 +73,7 @@ return across <= finger.friction * along;
 
 // <variant both_edges_alike> caught by: cones, all-wrenches
 // mistake: returns the same edge of a planar cone twice.
+// ask: Is the same edge of a finger returned twice? The other one lies on the other side of the normal.
 // <solution planarWrenches>
 Eigen::Index column = 0;
 for (const PlanarFinger& finger : fingers)
@@ -102,6 +111,12 @@ const Eigen::Vector3d a = n.cross(least).normalized(), b = n.cross(a);
 const double radius = finger.friction / std::cos(std::numbers::pi / edges);
 // in place of: forces.col(k) = n + finger.friction * (std::cos(angle) * a + std::sin(angle) * b);
 forces.col(k) = n + radius * (std::cos(angle) * a + std::sin(angle) * b);
+
+// <variant unit_edges> caught by: cones, any-cones, all-wrenches
+// mistake: edges are as long as one newton, instead of their normal components.
+// <solution pyramidEdges>
+// in place of: forces.col(k) = n + finger.friction * (std::cos(angle) * a + std::sin(angle) * b);
+forces.col(k) = (n + finger.friction * (std::cos(angle) * a + std::sin(angle) * b)).normalized();
 
 // <variant direction_turned_round> caught by: verdicts, grasps
 // mistake: the direction of an open grasp has the wrong sign.
@@ -148,12 +163,14 @@ return {false, -inside.y.head(d).normalized()};
 // <variant farthest_corner> caught by: reach, any-reach
 // shown by: reach
 // mistake: measures how far the corners lie along the direction, which is not how far the hull reaches.
+// ask: Is it how far a corner lies along the direction? The hull ends before.
 // <solution reachAlong>
 return (wrenches.transpose() * direction).maxCoeff();
 
 // <variant reaches_back> caught by: reach, any-reach
 // shown by: reach
 // mistake: -s * direction is in the hull.
+// ask: Is it how far the hull reaches the other way, along -direction?
 // <solution reachAlong>
 // in place of: A.topRightCorner(d, 1) = -direction;
 A.topRightCorner(d, 1) = direction;
@@ -161,6 +178,7 @@ A.topRightCorner(d, 1) = direction;
 // <variant weights_without_sum> caught by: reach, any-reach
 // shown by: reach
 // mistake: each weight at most one, instead of one for all together.
+// ask: Is each weight at most one? All together sum to one.
 // <solution reachAlong>
 // in place of: Eigen::MatrixXd A = Eigen::MatrixXd::Zero(d + 1, n + 1);  // unknown: the weights, and then s
 Eigen::MatrixXd A = Eigen::MatrixXd::Zero(d + n, 2 * n + 1);
@@ -173,6 +191,7 @@ cost[2 * n] = -1;
 
 // <variant any_plane> caught by: radius, any-radius
 // mistake: the nearest plane through three wrenches, whether it bounds the hull or cuts it.
+// ask: Does the nearest plane cut the hull? Only planes that bound it count.
 // <solution epsilonOf>
 if (!judged(wrenches).closed) return 0;
 double least = INFINITY;
@@ -194,6 +213,7 @@ return graspQuality(wrenches).epsilon;
 
 // <variant nearest_corner> caught by: radius, any-radius
 // mistake: the distance of the nearest corner of the hull, instead of the nearest face.
+// ask: Is it the distance of the nearest corner? A face may be nearer.
 // <solution epsilonOf>
 return judged(wrenches).closed ? wrenches.colwise().norm().minCoeff() : 0;
 
@@ -222,6 +242,7 @@ return {};
 
 // <variant all_at_once> caught by: fewer, fewer-on-solids
 // mistake: finds the fingers that are redundant, and deletes all of them at once.
+// ask: Are all fingers deleted at once that are redundant beside all others?
 // <solution keptFingers>
 const auto without = [&](int removed) {
   Eigen::MatrixXd some(wrenches.rows(), 0);
@@ -240,6 +261,7 @@ return kept;
 
 // <variant one_wrench_of_each_finger> caught by: fewer, fewer-on-solids
 // mistake: judges the first wrench of each finger alone.
+// ask: Are all wrenches of each finger judged, or only one of them?
 // <solution keptFingers>
 // in place of: if (std::find(fingers.begin(), fingers.end(), finger[k]) != fingers.end()) { ... }
 if ((k == 0 || finger[k] != finger[k - 1]) &&
@@ -250,6 +272,7 @@ if ((k == 0 || finger[k] != finger[k - 1]) &&
 
 // <variant deletes_until_open> caught by: fewer, fewer-on-solids
 // mistake: stops at the first finger that is needed; later ones may be redundant.
+// ask: Does the deletion end at the first finger that is needed? Later ones may be redundant.
 // <solution keptFingers>
 if (!judged(wrenches).closed) return {};
 std::vector<int> kept = finger;
@@ -266,6 +289,7 @@ return kept;
 
 // <variant first_that_close> caught by: fewer, fewer-on-solids
 // mistake: adds fingers one after the other until they hold, and does not check that all are needed.
+// ask: Are fingers added until they hold? Of those, earlier ones may be redundant.
 // <solution keptFingers>
 std::vector<int> kept;
 Eigen::MatrixXd some(wrenches.rows(), 0);
