@@ -84,35 +84,19 @@ inline void movedCellsFit(rex::grading::Check& check, Student& student, int numb
   const Eigen::VectorXd got = student.movedCells(belief, way, corridor);
   const Eigen::VectorXd wanted = rex::predictCells(belief, rex::CellTransition(T.sparseView()));
   check.shape("result of movedCells", got, n, 1);
-  Corridor sure = corridor, exchanged = corridor;
-  sure.slips = sure.leaps = 0;
-  std::swap(exchanged.slips, exchanged.leaps);
-  Eigen::VectorXd lost = Eigen::VectorXd::Zero(n), stays = lost, last = lost;
+  Eigen::VectorXd lost = Eigen::VectorXd::Zero(n);
   const Eigen::Vector3d share(corridor.slips, 1 - corridor.slips - corridor.leaps, corridor.leaps);
   for (Eigen::Index i = 0; i < n; ++i)
     for (int k = 0; k < 3; ++k) {
       const Eigen::Index to = i + way * k;
-      const bool isInside = to >= 0 && to < n;
-      if (isInside) lost[to] += share[k] * belief[i];
-      stays[isInside ? to : i] += share[k] * belief[i];
-      last[std::clamp<Eigen::Index>(to, 0, n - 1)] = share[k] * belief[i];
+      if (to >= 0 && to < n) lost[to] += share[k] * belief[i];
     }
   const auto shown = check.show([&] { return beliefsBeside("The belief after the move", got, wanted); });
-  check.near(
-      "belief of movedCells", got, wanted, 1e-9,
-      {{"Is the corridor a ring? It has a wall at either end.", transitionOf(corridor, way, true) * belief},
-       {"Does what would go beyond the wall get lost? It stays in the last cell.", lost},
-       {"Is the rest made a distribution again? Nothing gets lost: the robot stays in the last cell.",
-        lost / lost.sum()},
-       {"Where is a robot that would move by two cells, but has a single one before the wall?", stays},
-       {"Does the belief move to the other side?", transitionOf(corridor, -way) * belief},
-       {"Is it the product with the transposed matrix? A cell passes its probability on.",
-        T.transpose() * belief},
-       {"Does every move work? The robot slips and leaps, and the belief widens.",
-        transitionOf(sure, way) * belief},
-       {"Are slips and leaps exchanged?", transitionOf(exchanged, way) * belief},
-       {"Is it overwritten, not added, what several cells pass on to one?", last},
-       {"Is the belief the same as before?", belief}});
+  check.near("belief of movedCells", got, wanted, 1e-9,
+             {{"Does what would go beyond the wall get lost? It stays in the last cell.", lost},
+              {"Is it the product with the transposed matrix? A cell passes its probability on.",
+               T.transpose() * belief},
+              {"Is the belief the same as before?", belief}});
 }
 
 inline void seenCellsFit(rex::grading::Check& check, Student& student, int number) {
@@ -133,17 +117,10 @@ inline void seenCellsFit(rex::grading::Check& check, Student& student, int numbe
   }
   describeCorridor(check, corridor, belief, "door", door ? 1 : 0);
   const Eigen::VectorXd L = likelihoodsOf(corridor, door), chances = student.doorChances(door, corridor);
-  Corridor exchanged = corridor;
-  std::swap(exchanged.misses, exchanged.alarms);
   check.shape("result of doorChances", chances, n, 1);
-  const Eigen::VectorXd sure =
-      (corridor.doors.array() > 0.5).select(Eigen::ArrayXd::Constant(n, door), !door);
   check.near(
       "result of doorChances", chances, L, 1e-12,
-      {{"Are misses and false alarms left out?", sure},
-       {"Are misses and alarms exchanged?", likelihoodsOf(exchanged, door)},
-       {"Is it the chance of the other observation?", likelihoodsOf(corridor, !door)},
-       {"Does seeing no door tell nothing? It speaks for cells without one.", Eigen::VectorXd::Ones(n)},
+      {{"Is it the chance of the other observation?", likelihoodsOf(corridor, !door)},
        {"Is the result a distribution over cells? Each number is one over observations.", L / L.sum()}});
   const Eigen::VectorXd got = student.seenCells(belief, door, corridor);
   const rex::CellUpdate update = rex::updateCells(belief, L);
@@ -152,11 +129,7 @@ inline void seenCellsFit(rex::grading::Check& check, Student& student, int numbe
   const auto shown = check.show([&] { return beliefsBeside("The belief after a look", got, update.belief); });
   check.near(
       "belief of seenCells", got, update.belief, 1e-9,
-      {{"Is the belief before the look forgotten?", L / L.sum()},
-       {"Do the probabilities add up to one? Divide by the evidence.", product},
-       {"Is the sum of belief and likelihood taken? Bayes' rule has a product.", sum / sum.sum()},
-       {"Does the belief stay as it was if the observation is impossible?",
-        Eigen::VectorXd::Constant(n, 1. / static_cast<double>(n))},
+      {{"Is the sum of belief and likelihood taken? Bayes' rule has a product.", sum / sum.sum()},
        {"Is the likelihood counted twice?", product.cwiseProduct(L) / std::max(1e-300, product.dot(L))},
        {"Is the belief the same as before?", belief}});
 }
@@ -209,11 +182,6 @@ inline void hindsightFits(rex::grading::Check& check, Student& student) {
     const auto shown =
         check.show([&] { return beliefsBeside("The belief in hindsight", got[t], wanted[t]); });
     check.near("belief of cellsInHindsight at time " + std::to_string(t), got[t], wanted[t], 1e-9,
-               {{"Is it the filter? What was seen later counts, too.", forward[t]},
-                {"Is what was seen later taken back through the move?", unmoved / unmoved.sum()},
-                {"Does what was seen later move with the robot? It goes back: the transposed matrix.",
-                 moved / moved.sum()},
-                {"Does the filter count twice? What comes back is likelihoods only.", own / own.sum()},
-                {"Is it what was believed before anything was seen?", prior}});
+               {{"Is it what was believed before anything was seen?", prior}});
   }
 }
