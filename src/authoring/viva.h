@@ -21,10 +21,11 @@ struct VivaQuestion {
   std::string message{};          ///< what a student would read there
 };
 
-/// Up to `most` such questions, about different lines, and different functions as long as there are some: the
-/// changes of mutantsOfFile(), drawn by a fixed seed, of which a visible check that the file passes fails by
-/// wrong answers. The file is compiled and run in the sandbox, once for each change that is tried,
-/// `kMostTries` at most. Throws Error for a file that passes no visible check, and if the tools fail.
+/// Up to `most` such questions, about different lines, and different functions as long as there are some.
+/// Tried are changes of mutantsOfFile(), drawn by a fixed seed; one is asked about if a visible check that
+/// the file passes then fails by wrong answers. The file is compiled and run in the sandbox, once for each
+/// change, at most kMostTries times. Throws Error for a file that passes no visible check, and if the tools
+/// fail.
 [[nodiscard]] std::vector<VivaQuestion> vivaQuestions(const submission::Toolchain& toolchain,
                                                       const submission::ExerciseInfo& exercise,
                                                       const std::filesystem::path& file,
