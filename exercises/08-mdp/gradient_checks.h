@@ -75,10 +75,7 @@ inline std::vector<Mistake> mistakenReturns(const Eigen::VectorXd& rewards, doub
   }
   const char* const own = "Is the reward of the step itself left out?";
   const char* const before = "Are the rewards before the step summed up? The return counts those from it on.";
-  return {{"Is the discount forgotten?", rex::returnsToGo(rewards, 1)},
-          {"Is it the return of the whole trial in each step?", Eigen::VectorXd::Constant(T, wanted[0])},
-          {"Is the discount counted from the start of the trial? It is discount^(t' - t).", faded},
-          {own, later},
+  return {{own, later},
           {own, discount * later},
           {"Is the reward of the step itself discounted, too?", discount * wanted},
           {before, past},
@@ -145,26 +142,14 @@ inline std::vector<Mistake> mistakenGradients(const Practice& given, const Eigen
                perStep = trials / static_cast<double>(steps.size());
   Eigen::VectorXd noise = Eigen::VectorXd::Zero(wanted.size());
   for (const S& step : steps) noise += step.faded * step.Q / trials * step.noise;
-  const Eigen::MatrixXd Sigma = asLibrary(given.policy).Sigma;
   const char* const whole = "Does the return of the whole trial count in each step? It is that from t on.";
-  return {{"Is the factor discount^t of each step left out?",
-           gradientBy(given, [](const S& s) { return s.Q * s.moved / s.variance; })},
-          {"Is the variance of the action, phi^T Sigma phi, left out?",
-           gradientBy(given, [](const S& s) { return s.faded * s.Q * s.moved; })},
-          {"Is it divided by the standard deviation? The density has the variance, phi^T Sigma phi.",
+  return {{"Is it divided by the standard deviation? The density has the variance, phi^T Sigma phi.",
            gradientBy(given, [](const S& s) { return s.faded * s.Q * s.moved / std::sqrt(s.variance); })},
-          {"Is the variance |L phi|^2? It is phi^T Sigma phi = |L^T phi|^2.",
-           gradientBy(given, [](const S& s) { return s.faded * s.Q * s.moved / s.mistaken; })},
           {whole, gradientBy(given, [](const S& s) { return s.faded * s.Q0 * s.moved / s.variance; })},
           {whole, gradientBy(given, [](const S& s) { return s.Q0 * s.moved / s.variance; })},
-          {"Does the reward of the step count alone? It is the return from t on.",
-           gradientBy(given, [](const S& s) { return s.faded * s.reward * s.moved / s.variance; })},
           {"Is it the action itself? It is its distance from the mean, phi^T epsilon.",
            gradientBy(given, [](const S& s) { return s.faded * s.Q * (s.mean + s.moved) / s.variance; })},
-          {"Is the sum over the trials not divided by their number?", trials * wanted},
-          {"Is it the mean over the steps? It is that over the trials.", perStep * wanted},
-          {"Is it the gradient of the density of epsilon? log pi is that of the action, 9:16.",
-           rex::solveMatrix(Sigma, noise)}};
+          {"Is it the mean over the steps? It is that over the trials.", perStep * wanted}};
 }
 
 /// An arrow in the plane, from `from`, or bars if there are not two numbers.
@@ -223,21 +208,12 @@ inline Eigen::VectorXd powerBy(const Practice& given, WeightOfStep weight, bool 
 inline std::vector<Mistake> mistakenPowers(const Practice& given, const Eigen::VectorXd& wanted) {
   using S = StepOfTrial;
   return {
-      {"Is it the ratio of slide 9:17, without W? That is right for one feature.",
-       powerBy(
-           given, [](const S& s) { return s.Q; }, false)},
-      {"Is it the change of beta? Wanted is the new beta.", wanted - given.policy.beta},
       {"Is the change subtracted from the old beta?", 2 * given.policy.beta - wanted},
-      {"Is the variance phi^T Sigma phi in W left out?", powerBy(given, [](const S& s) { return s.Q; })},
       {"Is the variance in W |L phi|^2? It is phi^T Sigma phi = |L^T phi|^2.",
        powerBy(given, [](const S& s) { return s.Q / s.mistaken; })},
       {"Is W divided by the standard deviation? It is divided by the variance, phi^T Sigma phi.",
        powerBy(given, [](const S& s) { return s.Q / std::sqrt(s.variance); })},
       {"Are the returns left out of the sums?", powerBy(given, [](const S& s) { return 1 / s.variance; })},
-      {"Does the reward of the step count alone? It is the return from t on.",
-       powerBy(given, [](const S& s) { return s.reward / s.variance; })},
-      {"Does the return of the whole trial count in each step? It is that from t on.",
-       powerBy(given, [](const S& s) { return s.Q0 / s.variance; })},
       {"Is Q_t multiplied by discount^t, as in REINFORCE? PoWER does without.",
        powerBy(given, [](const S& s) { return s.faded * s.Q / s.variance; })}};
 }

@@ -66,8 +66,6 @@ inline std::vector<Mistake> mistakenMaze(const Eigen::VectorXd& leaves, double d
   return {{isRandom && discount == .5 ? "Is the discount of .5 forgotten, or the probability of 1/2?"
                                       : "Is the discount forgotten?",
            by(leaves, 1, isRandom)},
-          {"Are the leaves discounted, too? Their reward comes at once.",
-           by(discount * leaves, discount, isRandom)},
           {"Is the reward of a leaf received on the way to it? It is received in the leaf.", early},
           {"Are the leaves worth nothing? Their rewards count.", none},
           {isRandom ? "Is the best action taken? The random policy goes left and right equally often."

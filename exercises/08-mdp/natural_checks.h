@@ -61,31 +61,21 @@ inline std::vector<Mistake> mistakenNaturalGradients(const NaturalPractice& made
       fisherBy(given, [](const S& s) { return s.moved * s.moved / (s.variance * s.variance); });
   const char* const sums = "Is F made of sums over a trial? It is the sum of products, one for each step.";
   std::vector<Mistake> mistakes{
-      {"Is it g itself? Wanted is F^-1 g.", g},
-      {"Is it F g? Wanted is F^-1 g.", F * g},
       {"Is it the new beta? Wanted is w alone.", given.policy.beta + w},
-      {"Is the factor discount^t of each step left out of F?", with(lateF)},
       {"Is the factor discount^t of each step left out of F and of g?", rex::leastSquares(lateF, late)},
       {"Is discount^t squared in F? It is a factor of each product, not of both dlog pi.",
        by([](const S& s) { return s.faded * s.faded * s.moved * s.moved / (s.variance * s.variance); })},
-      {"Is the sum in F not divided by the number of trials?", w / trials},
       {"Is F the mean over the steps? It is that over the trials.", w * steps / trials},
-      {"Is dlog pi divided by the variance in only one of the two factors in F?",
-       by([](const S& s) { return s.faded * s.moved * s.moved / s.variance; })},
       {"Is the variance of the action, phi^T Sigma phi, left out of F?",
        by([](const S& s) { return s.faded * s.moved * s.moved; })},
       {"Is the variance in F |L phi|^2? It is phi^T Sigma phi = |L^T phi|^2.",
        by([](const S& s) { return s.faded * s.moved * s.moved / (s.mistaken * s.mistaken); })},
-      {"Is F its expectation over the actions, phi phi^T / (phi^T Sigma phi)? It is that of the actions "
-       "taken.",
-       by([](const S& s) { return s.faded / s.variance; })},
       {"Is F made of the features alone? It is made of dlog pi.", by([](const S& s) { return s.faded; })},
       {"Do the returns count in F? They belong to g.",
        by([](const S& s) { return s.faded * s.Q * s.moved * s.moved / (s.variance * s.variance); })},
       {sums, with(fisherOfSums(given, [](const S& s) { return s.faded * s.moved / s.variance; }))},
       {sums, with(fisherOfSums(given, [](const S& s) { return s.moved / s.variance; }))},
       {"Is F a diagonal matrix? Its other entries count, too.", g.cwiseQuotient(F.diagonal())},
-      {"Is Sigma taken for F?", rex::solveMatrix(Sigma, g)},
       {"Is Sigma taken for the inverse of F?", Sigma * g}};
   for (const Mistake& mistake : mistakenGradients(given, g))
     mistakes.push_back(

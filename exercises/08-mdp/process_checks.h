@@ -111,19 +111,16 @@ inline Eigen::VectorXd solved(const Chain& chain, double discount, double factor
 }
 
 inline std::vector<Mistake> mistakenValues(const Process& process, const Eigen::MatrixXd& policy) {
-  const double discount = process.discount, m = static_cast<double>(policy.cols());
+  const double discount = process.discount;
   const Eigen::MatrixXd all = Eigen::MatrixXd::Ones(policy.rows(), policy.cols());
   const Chain right = chainOf(process, policy), sums = chainOf(process, all);
   const char* const columns = "Are columns of P taken for rows? P[a](s, t) leads from s to t.";
   return {
-      {"Is the discount forgotten?", solved(right, 1)},
       {columns, solved(chainOf(process, policy, true), discount)},
       {columns, solved({right.P.transpose(), right.r}, discount)},
       {"Is it only the reward of the first step?", right.r},
       {"Is the reward in s discounted, too? Only what follows is.", solved(right, discount, discount)},
       {"Does what follows have the wrong sign? V - discount P V is the reward.", solved(right, -discount)},
-      {"Are all actions taken to be equally likely? Their probabilities are in `policy`.",
-       solved(chainOf(process, Eigen::MatrixXd::Constant(policy.rows(), policy.cols(), 1 / m)), discount)},
       {"Are the rewards added up without the probabilities of the actions?",
        solved({right.P, sums.r}, discount)},
       {"Are the matrices P added up without the probabilities of the actions?",
@@ -163,24 +160,7 @@ inline std::vector<Mistake> mistakenWorths(const Process& process, const Eigen::
   using Index = Eigen::Index;
   const double discount = process.discount;
   const Matrix &R = process.R, wanted = rex::actionValues(mdpOf(process), V), following = wanted - R;
-  const auto best = [&](const Matrix& P, Index s) {
-    double most = -INFINITY;
-    for (Index t = 0; t < V.size(); ++t)
-      if (P(s, t) > 0) most = std::max(most, V[t]);
-    return std::isfinite(most) ? most : 0;
-  };
-  const auto inColumn = [&](const Matrix& P, Index s) {
-    double sum = 0;
-    for (Index t = 0; t < V.size(); ++t) sum += P(t, s) * V[t];
-    return sum;
-  };
-  return {{"Is the discount forgotten?", R + following / discount},
-          {"Are columns of P taken for rows? P[a](s, t) leads from s to t.", worthWith(process, inColumn)},
-          {"Is it the value of s that follows? It is that of the next state, on average.",
-           worthWith(process, [&](const Matrix&, Index s) { return V[s]; })},
-          {"Is it the best next state that follows? All of them count, by their probabilities.",
-           worthWith(process, best)},
-          {"Does P[0] serve for all actions?",
+  return {{"Does P[0] serve for all actions?",
            worthWith(process, [&](const Matrix&, Index s) { return following(s, 0) / discount; })},
           {"Is the reward discounted, too? Only what follows is.", wanted - (1 - discount) * R},
           {"Is the reward left out?", following}};

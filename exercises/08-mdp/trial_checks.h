@@ -83,14 +83,9 @@ inline void trialEnds(rex::grading::Check& check, const Rollout& trial, const Tr
 
 inline std::vector<Mistake> mistakenNoise(const Policy& policy, const Eigen::MatrixXd& white) {
   const Eigen::MatrixXd turned = policy.L.transpose(), right = policy.L * white, wrong = turned * white;
-  Eigen::MatrixXd shifted = right, first = right;
-  for (Eigen::Index t = 0; t < white.cols(); ++t) {
-    shifted.col(t) += policy.beta;
-    first.col(t) = right.col(0);
-  }
-  return {{"Is the noise drawn once for the whole trial? It is drawn again in each step.", first},
-          {"Is L left out? With a normal z, epsilon = L z.", white},
-          {"Is it L^T z? With a normal z, epsilon = L z.", wrong},
+  Eigen::MatrixXd shifted = right;
+  for (Eigen::Index t = 0; t < white.cols(); ++t) shifted.col(t) += policy.beta;
+  return {{"Is it L^T z? With a normal z, epsilon = L z.", wrong},
           {"Is it Sigma z? With a normal z, epsilon = L z.", policy.L * wrong},
           {"Is beta added to the noise?", shifted}};
 }
@@ -116,16 +111,13 @@ inline Eigen::MatrixXd statesFit(rex::grading::Check& check, const Rollout& tria
     next.col(t + 1) = task.after(task.states[at], task.actions[at]);
   }
   {
-    const auto mistake = check.ask(questionAbout(
-        seen, 1e-9, {{"Is the state never moved on? The next one is what step() returned.", still}}));
+    const auto mistake = check.ask(questionAbout(seen, 1e-9, {}));
     columnsAgree(check, "state that runTrial passes to step", seen, next.leftCols(T), [&](Eigen::Index t) {
       const Eigen::VectorXd wanted = next.col(t);
       check.input(stepped(t), {{t == 0 ? "start" : "state after the step before", wanted}});
     });
   }
-  const auto late = check.ask(questionAbout(
-      trial.features, 1e-9,
-      {{"Are the features those after the step? Wanted are those before it.", next.rightCols(T)}}));
+  const auto late = check.ask(questionAbout(trial.features, 1e-9, {}));
   columnsAgree(check, "features of runTrial", trial.features, seen, [&](Eigen::Index t) {
     const Eigen::VectorXd state = seen.col(t);
     check.input(stepped(t), {{"state passed to step", state}});
@@ -156,8 +148,7 @@ inline void actionsFit(rex::grading::Check& check, const Policy& policy, const R
   const Eigen::MatrixXd actions = rowOf(task.actions);
   const auto mistake =
       check.ask(questionAbout(actions, 1e-9,
-                              {{"Is the noise left out of the action?", plain},
-                               {"Is the noise subtracted? a = phi^T (beta + epsilon).", opposite},
+                              {{"Is the noise subtracted? a = phi^T (beta + epsilon).", opposite},
                                {"Is beta left out of the action?", noisy - plain}}));
   columnsAgree(check, "action that runTrial passes to step", actions, noisy, [&](Eigen::Index t) {
     const Eigen::VectorXd phi = seen.col(t), epsilon = trial.noise.col(t);
