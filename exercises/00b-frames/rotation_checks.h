@@ -47,12 +47,7 @@ inline void rotatesAbout(rex::grading::Check& check, Student& student, const Eig
   const double s = std::sin(angle), c = std::cos(angle);
   const auto shown = check.show([&] { return arrowsOf(got, R); });
   check.near("R of rotationMatrix", got, R, 1e-12,
-             {{"Is the sense of rotation wrong? (0, 0, 1) turns x to y.", Eigen::Matrix3d(R.transpose())},
-              {"Is the part along the axis left out, (1 - cos) w w^T?", c * I + s * W},
-              {"Has w w^T no factor? It is 1 - cos.", c * I + s * W + square},
-              {"Are two forms of the formula mixed? With [w]x^2 the first term is the identity alone.",
-               c * I + s * W + (1 - c) * W * W},
-              {"Is it a rotation by half of the angle? Only quaternions have halves.", turn(axis, angle / 2)},
+             {{"Has w w^T no factor? It is 1 - cos.", c * I + s * W + square},
               {"Is the angle taken for one in degrees?", turn(axis, angle * kPi / 180)},
               {"Is it the rotation of a small angle only?", I + angle * W}});
 }
@@ -69,13 +64,10 @@ inline void findsAxis(rex::grading::Check& check, Student& student, const Eigen:
                    : "Is the angle nearly pi here? What is left of R - R^T, and what of R + R^T?",
       angle < 1e-3 || angle > kPi - 1e-3);
   check.near("w of rotationVector", got, w, tolerance,
-             {{"Is it the axis alone? Its length has to be the angle.", axis},
-              {"Is it the entries of R - R^T alone, which are the axis times 2 sin(angle)?", 2 * plain},
+             {{"Is it the entries of R - R^T alone, which are the axis times 2 sin(angle)?", 2 * plain},
               {"Is the axis multiplied by the sine of the angle? It has to be the angle.", plain},
               {"Is the axis not divided by the sine of the angle?", angle * plain},
-              {"Is R - R^T not halved?", 2 * w},
-              {"Is it the axis times half of the angle?", angle / 2 * axis},
-              {"Is asin used, which ends at a quarter turn?", std::asin(std::sin(angle)) * axis}});
+              {"Is it the axis times half of the angle?", angle / 2 * axis}});
 }
 
 inline Eigen::Vector4d randomQuaternion(rex::Rng& rng) { return rng.normalVector(4).normalized(); }
@@ -95,23 +87,15 @@ inline void composes(rex::grading::Check& check, Student& student, const Eigen::
   check.input("two quaternions", {{"a", a}, {"b", b}});
   const Eigen::Vector4d wanted = rex::quaternionProduct(a, b);
   const Eigen::Vector3d v = b.tail<3>(), u = a.tail<3>();
-  Eigen::Vector4d plain = wanted, crossed = wanted, added = wanted;
+  Eigen::Vector4d plain = wanted, added = wanted;
   plain.tail<3>() -= u.cross(v);
   added[0] = a[0] * b[0] + u.dot(v);
-  crossed.tail<3>() = a[0] * u + b[0] * v + u.cross(v);
-  const auto last = [](const Eigen::Vector4d& q) { return Eigen::Vector4d(q[3], q[0], q[1], q[2]); };
-  const Eigen::Vector4d scalarLast = rex::quaternionProduct(last(a), last(b));
   nearUpToSign(check, "quaternion of composed", student.composed(a, b), wanted, 1e-12,
-               {{"Is the cross product that of slide 2:10? It has its factors in the wrong order.",
-                 rex::quaternionProduct(b, a)},
-                {"Is the cross product left out?", plain},
+               {{"Is the cross product left out?", plain},
                 {"Has the scalar product of the vector parts the wrong sign?", added},
-                {"Is each vector part multiplied by its own scalar? Each goes with the other one.", crossed},
                 {"Are the quaternions added?", a + b},
                 {"Is b conjugated?", rex::quaternionProduct(a, conjugate(b))},
-                {"Is a conjugated?", rex::quaternionProduct(conjugate(a), b)},
-                {"Is the scalar the last of the four numbers? Here it is the first.",
-                 Eigen::Vector4d(scalarLast[1], scalarLast[2], scalarLast[3], scalarLast[0])}});
+                {"Is a conjugated?", rex::quaternionProduct(conjugate(a), b)}});
 }
 
 /// Of two orientations that are `arc` apart, as unit vectors in four dimensions; b is negated if `flips`.
@@ -131,11 +115,9 @@ inline void turnsSmoothly(rex::grading::Check& check, Student& student, double a
         [&] { return arrowsOf(rex::rotationFromQuaternion(got), rex::rotationFromQuaternion(wanted)); });
     const auto same =
         check.ask("Are a and b the same orientation here? Do not divide by the sine of the arc.", arc < 1e-6);
-    const Eigen::Vector4d mixed = (1 - share) * a + share * b, longer = at(share * (arc - kPi));
+    const Eigen::Vector4d mixed = (1 - share) * a + share * b;
     nearUpToSign(check, "quaternion of between", got, wanted, 1e-9,
-                 {{"Is it linear interpolation, normalised? Its speed is not constant.", mixed.normalized()},
-                  {"Is it linear interpolation? The result has to have length one.", mixed},
-                  {"Does it take the longer way? One of b and -b is nearer to a.", longer},
+                 {{"Is it linear interpolation? The result has to have length one.", mixed},
                   {"Is it the way from b to a?", at((1 - share) * arc)},
                   {"Is the angle of rotation taken for the arc? It is twice as large.",
                    std::sin((1 - share) * 2 * arc) / std::sin(2 * arc) * a +
@@ -172,25 +154,14 @@ inline Eigen::Vector3d anglesNear(rex::Rng& rng, Convention convention, double a
 inline void turnsByEuler(rex::grading::Check& check, Student& student, Convention convention,
                          const Eigen::Vector3d& angles) {
   describe(check, convention, angles);
-  const bool is313 = convention == Convention::k313;
   const Eigen::Matrix3d R = trueEuler(convention, angles), got = student.eulerMatrix(convention, angles);
   const auto only = [&](double a, double b, double c) { return trueEuler(convention, {a, b, c}); };
-  const Eigen::Matrix3d fixedAxes = product(is313 ? "313" : "123", angles.reverse());
   const auto shown = check.show([&] { return arrowsOf(got, R); });
-  check.near(
-      "R of eulerMatrix", got, R, 1e-12,
-      {{"Are the factors in the reverse order? A rotation about an axis of the turned frame stands to the "
-        "right.",
-        fixedAxes},
-       {"Is it the other convention?", product(is313 ? "321" : "313", angles)},
-       {"Are the angles in the reverse order? The first one turns first.",
-        trueEuler(convention, angles.reverse())},
-       {"Is it the transpose? R takes coordinates of the frame to those of the world.",
-        Eigen::Matrix3d(R.transpose())},
-       {"Is the second rotation about another axis?", product(is313 ? "323" : "311", angles)},
-       {"Is the second rotation about another axis?", product(is313 ? "333" : "331", angles)},
-       {"Has the second rotation the wrong sense?", only(angles[0], -angles[1], angles[2])},
-       {"Is the third rotation left out?", only(angles[0], angles[1], 0)}});
+  check.near("R of eulerMatrix", got, R, 1e-12,
+             {{"Is it the transpose? R takes coordinates of the frame to those of the world.",
+               Eigen::Matrix3d(R.transpose())},
+              {"Has the second rotation the wrong sense?", only(angles[0], -angles[1], angles[2])},
+              {"Is the third rotation left out?", only(angles[0], angles[1], 0)}});
 }
 
 inline void findsEuler(rex::grading::Check& check, Student& student, Convention convention,
@@ -199,7 +170,6 @@ inline void findsEuler(rex::grading::Check& check, Student& student, Convention 
   const Eigen::Matrix3d R = trueEuler(convention, angles);
   check.input(is313 ? "k313" : "kYawPitchRoll", {{"R", R}});
   const Eigen::Vector3d got = student.eulerAngles(convention, R);
-  const auto atan = [](double angle) { return std::atan(std::tan(angle)); };
   Eigen::Vector3d other(rex::wrapAngle(angles[0] + kPi), is313 ? -angles[1] : kPi - angles[1],
                         rex::wrapAngle(angles[2] + kPi));
   const Eigen::Vector3d back = is313 ? Eigen::Vector3d(kPi - angles[2], angles[1], kPi - angles[0])
@@ -208,15 +178,10 @@ inline void findsEuler(rex::grading::Check& check, Student& student, Convention 
     return Eigen::Vector3d(rex::wrapAngle(a[0]), a[1], rex::wrapAngle(a[2]));
   };
   check.near("angles of eulerAngles", got, angles, 1e-9,
-             {{"Are the angles in the reverse order? The first one turns first.", angles.reverse()},
-              {"Are the quadrants lost? atan2 knows them.",
-               Eigen::Vector3d(atan(angles[0]), angles[1], atan(angles[2]))},
-              {"Is the second angle outside its range? The same rotation has other angles as well.", other},
+             {{"Is the second angle outside its range? The same rotation has other angles as well.", other},
               {"Is it the transpose whose angles these are?", wrapped(back)},
               {"Are the two arguments of each atan2 exchanged?",
                wrapped({kPi / 2 - angles[0], angles[1], kPi / 2 - angles[2]})},
-              {"Has the second argument of the first atan2 the wrong sign?",
-               wrapped({kPi - angles[0], angles[1], angles[2]})},
               {"Has the second argument of the third atan2 the wrong sign?",
                wrapped({angles[0], angles[1], kPi - angles[2]})},
               {"Has the second angle the wrong sign?", Eigen::Vector3d(angles[0], -angles[1], angles[2])},
@@ -236,8 +201,7 @@ inline void findsLocked(rex::grading::Check& check, Student& student, Convention
   const auto finite =
       check.ask("Is asin or acos used? An entry of R may be 1 + 2e-16 by rounding.", !got.allFinite());
   check.shape("angles of eulerAngles where it locks", got, 3, 1);
-  check.near("third angle of eulerAngles where it locks", got[2], 0, 1e-9,
-             {{"Is the third angle computed from entries that are 0 up to rounding?", got[2]}}, "rad");
+  check.near("third angle of eulerAngles where it locks", got[2], 0, 1e-9, "rad");
   check.near("second angle of eulerAngles where it locks", got[1], angles[1], 1e-7,
              {{"Is it the other of the two angles where the convention locks?",
                convention == Convention::k313 ? kPi - angles[1] : -angles[1]}},
@@ -269,11 +233,7 @@ inline void findsAxes(rex::grading::Check& check, Student& student, Convention c
   const auto shown = check.show([&] { return arrowsOf(got, A); });
   const auto each = check.ask("Is each axis that of the frame as the rotations before it left the frame?");
   check.near("axes of turningAxes", got, A, 1e-12,
-             {{"Are the axes not turned by the rotations before them?", unmoved},
-              {"Are the axes given in the turned frame? Wanted are world coordinates.", R.transpose() * A},
-              {"Is every axis turned by all rotations? Only those before it turn it.", turned},
-              {"Are the columns in the reverse order?", A.rowwise().reverse()},
-              {"Are the axes rows? They are columns.", Eigen::Matrix3d(A.transpose())},
+             {{"Are the columns in the reverse order?", A.rowwise().reverse()},
               {"Is the second axis turned the wrong way round?", crossed},
               {"Are these the axes of the other convention?",
                trueAxes(is313 ? Convention::kYawPitchRoll : Convention::k313, angles)}});
@@ -297,12 +257,6 @@ inline void losesAxis(rex::grading::Check& check, Student& student, Convention c
   check.near(
       "axis of lostAxis, with the sign that fits", sign * got, lost, 1e-9,
       {{"Does lostAxis use turningAxes, which is wrong here?", isWrong ? Eigen::Vector3d(sign * got) : lost},
-       {"Is it the axis that occurs twice? Rates of the angles can turn about it.", sign * A.col(0)},
-       {"Is it the axis of the second rotation? The frame still turns about it.", sign * A.col(1)},
        {"Is the axis given in the turned frame? Wanted are world coordinates.",
-        Eigen::Vector3d(sign * trueEuler(convention, angles).transpose() * lost)},
-       {"Is it the direction of rates that turn nothing, in place of the axis?",
-        Eigen::Vector3d(sign * Eigen::Vector3d(1, 0, 1).normalized())},
-       {"Is it the direction of rates that turn nothing, in place of the axis?",
-        Eigen::Vector3d(sign * Eigen::Vector3d(1, 0, -1).normalized())}});
+        Eigen::Vector3d(sign * trueEuler(convention, angles).transpose() * lost)}});
 }
