@@ -82,12 +82,11 @@ std::vector<VivaQuestion> vivaQuestions(const submission::Toolchain& toolchain,
 
   std::vector<VivaQuestion> questions;
   const std::vector<Mutant> all = mutantsOfFile(text);
-  std::vector<Mutant> tried = inTurns(drawnMutants(all, all.size()));
-  tried.resize(std::min<std::size_t>(tried.size(), kMostTries));
-  for (const Mutant& mutant : tried) {
-    if (questions.size() == most) break;
+  int tries = 0;
+  for (const Mutant& mutant : inTurns(drawnMutants(all, all.size()))) {
     const auto isAsked = [&](const VivaQuestion& one) { return one.line == mutant.line; };
     if (std::any_of(questions.begin(), questions.end(), isAsked)) continue;
+    if (questions.size() == most || tries++ == kMostTries) break;
     const std::vector<CheckResult> checks = grader.grade(mutated(text, mutant));
     const auto failed = std::find_if(checks.begin(), checks.end(),
                                      [](const CheckResult& check) { return check.status == Outcome::kFail; });
