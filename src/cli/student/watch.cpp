@@ -69,8 +69,8 @@ class ResultPage {
 };
 
 // Grades like `rex test`, only `check` unless that is empty. Reports a fault of the project, which may be
-// repaired while watching.
-ExitCode gradeOnce(const Project& project, const std::string& name, const std::string& check,
+// repaired while watching. Throws UsageError the first time, for a check that does not exist.
+ExitCode gradeOnce(const Project& project, const std::string& name, const std::string& check, bool isFirst,
                    ResultPage& page) {
   page.startGrading();
   const auto start = std::chrono::steady_clock::now();
@@ -81,6 +81,7 @@ ExitCode gradeOnce(const Project& project, const std::string& name, const std::s
     if (!check.empty()) options.job.checks = {check};
     code = testOne(project, options);
   } catch (const std::exception& error) {
+    if (isFirst && dynamic_cast<const UsageError*>(&error) != nullptr) throw;
     note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
   }
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
@@ -108,8 +109,8 @@ std::string watchOne(const Project& project, const ExerciseInfo& exercise, const
   WatchKeys keys(project, exercise, keyboard, watcher, options.check);
   say(fmt::format("watching {} by {}; press Ctrl-C to end", shown(main), watcher.describe()));
   std::fflush(stdout);
-  for (;;) {
-    code = gradeOnce(project, exercise.name, keys.check(), page);
+  for (bool isFirst = true;; isFirst = false) {
+    code = gradeOnce(project, exercise.name, keys.check(), isFirst, page);
     const bool isSolved = code == ExitCode::kFull && keys.check().empty();
     std::fflush(stdout);
     if (keyboard.isThere()) {

@@ -109,4 +109,10 @@ TEST_F(Watching, EndsWhenItIsAskedTo) {
   }
 }
 
+TEST_F(Watching, EndsAtOnceWithoutSuchACheck) {
+  const Ended ended = rex({"watch", "98", "--check", "quarter-trn"});
+  EXPECT_EQ(ended.code, 64);
+  EXPECT_THAT(flat(ended.error), HasSubstr("'quarter-trn' (did you mean 'quarter-turn'?)"));
+}
+
 }  // namespace rex::cli::watch_test
