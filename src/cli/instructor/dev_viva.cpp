@@ -13,7 +13,10 @@ ExitCode devViva(const Project& project, const VivaOptions& options) {
   constexpr std::size_t kQuestions = 3;
   const ExerciseInfo exercise = project.exercise(options.exercise);
   if (!std::filesystem::is_regular_file(options.file))
-    throw UsageError({.what = "there is no such file", .where = {options.file.string()}});
+    throw UsageError({.what = "FILE",
+                      .where = {options.file.string()},
+                      .found = std::filesystem::exists(options.file) ? "a folder" : "no such file",
+                      .wanted = "the main.cpp that was handed in"});
   const auto sandbox = chooseSandbox(project, options.level);
   if (!sandbox) return ExitCode::kWeakSandbox;
   const PrivateFolder work(project.workPlace("exercises/" + exercise.name));

@@ -28,7 +28,8 @@ TEST_F(DevViva, SaysWhatIsMissing) {
   EXPECT_THAT(flat(rex({"dev", "viva", "98"}).error), HasSubstr("FILE is required"));
   EXPECT_EQ(rex({"dev", "viva", "98", "none.cpp"}).code, 64);
   EXPECT_THAT(flat(rex({"dev", "viva", "98", "none.cpp"}).error),
-              HasSubstr("none.cpp: there is no such file"));
+              HasSubstr("none.cpp: FILE: found no such file, wanted the main.cpp that was handed in"));
+  EXPECT_THAT(flat(rex({"dev", "viva", "98", exercise().string()}).error), HasSubstr("FILE: found a folder"));
   EXPECT_THAT(flat(rex({"dev", "viva", "98", (exercise() / "main.cpp").string()}).error),
               HasSubstr("found a file that passes no visible check"));
 }
