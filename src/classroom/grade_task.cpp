@@ -119,14 +119,13 @@ submission::BuiltSubmission build(const Task& task, const submission::Toolchain&
 
 std::string graderFingerprint(const submission::Toolchain& toolchain,
                               const submission::ExerciseInfo& exercise, const fs::path& launcher) {
-  std::string text =
-      fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", REX_VERSION, submission::exerciseVersion(exercise.definition),
-                  toolchain.compiler, join(toolchain.flags, "\n"), join(toolchain.linkFlags, "\n"),
-                  sha256(headersOf(toolchain.flags)));
+  std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n", REX_VERSION,
+                                 submission::exerciseVersion(exercise.definition), toolchain.compiler,
+                                 join(toolchain.flags, "\n"), join(toolchain.linkFlags, "\n"),
+                                 sha256(headersOf(toolchain.flags)), hashOfRunningProgram());
   std::vector<fs::path> files = toolchain.libraries;
   files.insert(files.end(), {toolchain.grader, toolchain.workerObject});
   for (const fs::path& file : files) text += sha256(readTextFile(file)) + "\n";
-  text += hashOfRunningProgram() + "\n";
   for (const fs::path& file : {launcher, submission::knownMistakesFile(exercise.definition)})
     if (fs::exists(file)) text += sha256(readTextFile(file)) + "\n";
   return sha256(text);
