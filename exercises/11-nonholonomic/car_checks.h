@@ -79,14 +79,14 @@ inline void isFreeAlong(rex::grading::Check& check, const CarModel& car, const E
   while (first <= tests && !touches(smaller, exact(car, from, drive, 1. * first / tests), blocks)) ++first;
   const bool isFree = first > tests;
   const Eigen::Vector3d end = exact(car, from, drive);
-  const auto between = check.ask("Is only the end of a drive tested? It is free; the way there is not.",
+  const auto between = check.ask("Is only the end of a drive tested? The end is free, but the drive is not.",
                                  !isFree && first > 0 && !touches(grown(car, 0.01), end, blocks));
   if (!isFree) {
     const Eigen::Vector3d where = exact(car, from, drive, 1. * first / tests);
     check.input(check.input() + ", touching",
                 {{"at q", where}, {"from", from}, {"speed, steering, seconds", numbersOf(drive)}});
   }
-  check.that("the body of the car touches nothing on the way of " + name, isFree);
+  check.that("the body of the car touches nothing during " + name, isFree);
 }
 
 inline std::vector<rex::grading::Mistake> mistakenEnds(const CarModel& car, const Eigen::Vector3d& q,
