@@ -285,18 +285,9 @@ parents.assign(static_cast<std::size_t>(count), heaviest);
 // mistake: there are as many children as particles, whatever `count` says.
 // ask: Are there as many parents as particles? Wanted are `count`.
 // <solution resampledParents>
-const int size = static_cast<int>(weights.size());
-Eigen::VectorXd rest = size * weights;
-for (int i = 0; i < rest.size(); ++i) {
-  const int whole = static_cast<int>(rest[i] + 1e-9);
-  parents.insert(parents.end(), static_cast<std::size_t>(whole), i);
-  rest[i] = std::max(0., rest[i] - whole);
-}
-double place = rng.uniform(), end = 0;
-for (int i = 0; i < rest.size(); ++i)
-  for (end += rest[i]; place < end && static_cast<int>(parents.size()) < size; place += 1)
-    parents.push_back(i);
-parents.resize(static_cast<std::size_t>(size), 0);
+// in place of: Eigen::VectorXd rest = count * weights;
+count = static_cast<int>(weights.size());
+Eigen::VectorXd rest = count * weights;
 
 // <variant calls_the_library> caught by: forbidden-call
 // mistake: the library resamples.
