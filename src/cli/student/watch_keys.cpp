@@ -8,11 +8,11 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "base/error.h"
 #include "base/text.h"
 #include "cli/student/exercise_commands.h"
 #include "cli/student/progress.h"
 #include "cli/terminal.h"
+#include "grading/unknown_check.h"
 #include "submission/submission.h"
 
 namespace rex::cli {
@@ -105,16 +105,10 @@ bool WatchKeys::chooseCheck() {
   const std::size_t number = parseNumber<std::size_t>(*typed).value_or(0);
   std::vector<std::string> ids;
   for (const grading::CheckResult& check : checks) ids.push_back(check.id);
-  if (number >= 1 && number <= ids.size()) {
-    check_ = ids[number - 1];
-    return true;
-  }
-  if (std::find(ids.begin(), ids.end(), *typed) != ids.end()) {
-    check_ = *typed;
-    return true;
-  }
-  throw UsageError({.what = fmt::format("{} has no check '{}'", exercise_.name, *typed),
-                    .nearest = nearestNames(*typed, ids)});
+  const std::string id = number >= 1 && number <= ids.size() ? ids[number - 1] : *typed;
+  if (std::find(ids.begin(), ids.end(), id) == ids.end()) throw grading::unknownCheck(id, ids);
+  check_ = id;
+  return true;
 }
 
 // Reads and echoes a number or name until Enter; "" after a key that belongs to neither. Empty if the file
