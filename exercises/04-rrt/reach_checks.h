@@ -39,16 +39,14 @@ inline void radiusFits(rex::grading::Check& check, Student& student, double l1, 
   const double slope = l1 * l2 * std::sqrt(1 - cosine * cosine) / r;  // |dr / dangle|
   const double got = student.radiusDensity(r, l1, l2);
   const auto shown = check.show([&] { return densitySeen(l1, l2, r, got, false); });
-  check.near(
-      "radiusDensity", got, wanted, 1e-5 * wanted,
-      {{"Is only one angle of the second joint counted? Its negative leads to the same r.", wanted / 2},
-       {"Is it the density of the angle? That of r is divided by |dr / dangle|.", 1 / pi},
-       {"Is it the density of the angle? That of r is divided by |dr / dangle|.", .5 / pi},
-       {"Is it multiplied by |dr / dangle|? A density is divided by it.", slope / pi},
-       {"Is the factor r missing? d(r^2) is 2 r dr.", wanted / r},
-       {"Are angles from -pi to pi counted twice?", 2 * wanted},
-       {"Is it the share of postures within r? Wanted is its derivative.", shareWithin(r, l1, l2)}},
-      "1/m");
+  check.near("radiusDensity", got, wanted, 1e-5 * wanted,
+             {{"Is it the density of the angle? That of r is divided by |dr / dangle|.", 1 / pi},
+              {"Is it the density of the angle? That of r is divided by |dr / dangle|.", .5 / pi},
+              {"Is it multiplied by |dr / dangle|? A density is divided by it.", slope / pi},
+              {"Is the factor r missing? d(r^2) is 2 r dr.", wanted / r},
+              {"Are angles from -pi to pi counted twice?", 2 * wanted},
+              {"Is it the share of postures within r? Wanted is its derivative.", shareWithin(r, l1, l2)}},
+             "1/m");
 }
 
 inline void planeFits(rex::grading::Check& check, Student& student, double l1, double l2,

@@ -27,7 +27,7 @@ inline bool gains(const PlaneWorld& world, const Tree& tree, int one, int throug
 
 /// The parents of a new node at q among `near`, rightly and by usual mistakes; -1: none.
 struct Candidates {
-  int best = -1, printed = -1, nearest = -1, blocked = -1, cheapest = -1;
+  int best = -1, nearest = -1, blocked = -1, cheapest = -1;
 
   Candidates(const PlaneWorld& world, const Tree& tree, const std::vector<int>& near,
              const Eigen::VectorXd& q) {
@@ -42,7 +42,6 @@ struct Candidates {
       least(blocked, k, cost);
       if (!wayIsFree(world, tree.nodes[static_cast<std::size_t>(k)], q)) continue;
       if (first < 0) first = k;
-      if (cost(k) <= cost(first)) printed = k;
       least(best, k, cost);
       least(nearest, k, length);
       least(cheapest, k, before);
@@ -58,12 +57,7 @@ inline void parentFits(rex::grading::Check& check, const Tree& tree, const std::
     const auto index =
         check.ask("Is it the position in `near`? Wanted is the number of the node there.", isIndex);
     check.near("parent of bestParent", got.parent, by.best, 0,
-               {{"Is each candidate compared with the first cost, as printed on the "
-                 "slide? The cost to beat falls with "
-                 "each better parent.",
-                 by.printed},
-                {"Is it the nearest? Wanted is the least cost from the root.", by.nearest},
-                {"Is the answer of edgeFree ignored?", by.blocked},
+               {{"Is it the nearest? Wanted is the least cost from the root.", by.nearest},
                 {"Is the edge to q left out of the cost?", by.cheapest}});
   }
   const auto k = static_cast<std::size_t>(by.best);
