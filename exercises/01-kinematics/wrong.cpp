@@ -3,6 +3,7 @@
 
 // <variant gaze_in_body_frame> caught by: look-at-zero, maps-other-robot
 // mistake: The gaze is given in the body's frame, but the direction to the target in the world's.
+// ask: Is the direction in the body's frame used as one in the world?
 // <solution lookAt>
 // in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 return {gaze - toTarget, across* S.jacobianPos(body)};
@@ -14,6 +15,7 @@ return {Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(3, S.getJointDimension())
 
 // <variant looks_away_too> caught by: look-at-zero
 // mistake: The cross product of gaze and direction is zero also when the body looks away from the target.
+// ask: Is it a cross product, or a square? These are zero there, too.
 // <solution lookAt>
 // in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 const Eigen::Vector3d seen = S.kinematicsVec(body, gaze);
@@ -36,12 +38,14 @@ return {S.getJointAngles().head(1), Eigen::MatrixXd::Identity(1, S.getJointDimen
 
 // <variant sign_flipped_jacobian> caught by: look-at-jacobian
 // mistake: The direction to the target turns the other way: that part of the Jacobian has the wrong sign.
+// ask: Does the part with jacobianPos have the wrong sign?
 // <solution lookAt>
 // in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) - across* S.jacobianPos(body)};
 
 // <variant sum_of_differences> caught by: look-at-zero
 // mistake: Differences of either sign can add up to zero although none of them is zero.
+// ask: Can parts of either sign cancel in it?
 // <solution lookAt>
 // in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 const Eigen::MatrixXd J = S.jacobianVec(body, gaze) + across * S.jacobianPos(body);
@@ -49,6 +53,7 @@ return {Eigen::VectorXd::Constant(1, (S.kinematicsVec(body, gaze) - toTarget).su
 
 // <variant two_coordinates_only> caught by: look-at-zero
 // mistake: Two coordinates of a direction leave the sign of the third open: a mirror image gives zero too.
+// ask: Is a coordinate of the direction left out?
 // <solution lookAt>
 // in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 const Eigen::MatrixXd J = S.jacobianVec(body, gaze) + across * S.jacobianPos(body);
@@ -56,12 +61,14 @@ return {(S.kinematicsVec(body, gaze) - toTarget).head(2), J.topRows(2)};
 
 // <variant palms_in_same_direction> caught by: palms-zero
 // mistake: The difference of the palms is zero when they point the same way, as for two hands on a table.
+// ask: It is zero with palms that point in the same direction: does a sign differ?
 // <solution opposePalms>
 return {S.kinematicsVec(left, palm) - S.kinematicsVec(right, palm),
         S.jacobianVec(left, palm) - S.jacobianVec(right, palm)};
 
 // <variant distance_changes_sign> caught by: distance-zero, maps-other-robot
 // mistake: The sum of the differences is one number, but zero on a whole plane through the goal.
+// ask: Can differences of either sign cancel in it?
 // <solution distanceToGoal>
 const Eigen::Vector3d away = S.kinematicsPos(body) - goal;
 return {Eigen::VectorXd::Constant(1, away.sum()), S.jacobianPos(body).colwise().sum()};
@@ -74,11 +81,13 @@ return {Eigen::VectorXd::Constant(1, away.norm()), away.transpose() * S.jacobian
 
 // <variant distance_per_coordinate> caught by: distance-zero, maps-other-robot
 // mistake: Three differences are a fine task map, but the task asks for one number.
+// ask: Is y the difference of two positions? Wanted is one number, the distance.
 // <solution distanceToGoal>
 return {S.kinematicsPos(body) - goal, S.jacobianPos(body)};
 
 // <variant goal_with_tolerance> caught by: distance-zero, maps-other-robot
 // mistake: A guard against dividing by zero makes the map zero within a centimetre of the goal.
+// ask: Is there a tolerance around the goal? Only the goal itself may give zero.
 // <solution distanceToGoal>
 const Eigen::Vector3d way = S.kinematicsPos(body) - goal;
 const double distance = way.norm();
@@ -104,6 +113,7 @@ return inverseKinematicsStep(J, dy, sigma);
 
 // <variant not_regularised> caught by: step-singular, step-hand
 // mistake: Without sigma the step explodes, or the matrix has no inverse, when the arm is stretched out.
+// ask: Is the term sigma^2 |dq|^2 missing?
 // <solution ikStep>
 return J.transpose() * solve(J * J.transpose(), dy);
 
@@ -114,6 +124,7 @@ return J.transpose() * dy / (sigma * sigma + J.squaredNorm());
 
 // <variant jacobian_of_the_first_posture> caught by: full-steps, small-steps, motion-other-robot
 // mistake: The Jacobian is computed once, before the first step.
+// ask: Is the Jacobian that of the first posture in all steps?
 // <solution smallSteps>
 static Eigen::MatrixXd J;
 if (t == 1) J = S.jacobianPos(body);
@@ -122,6 +133,7 @@ postures.push_back(S.getJointAngles());
 
 // <variant posture_before_the_step> caught by: full-steps, small-steps, motion-other-robot
 // mistake: Each posture is kept before its step instead of after it.
+// ask: The hand is where it started: is S never moved, or the posture kept before the step?
 // <solution smallSteps>
 postures.push_back(S.getJointAngles());
 const Eigen::VectorXd dq = ikStep(S.jacobianPos(body), target - S.kinematicsPos(body), sigma);
@@ -129,6 +141,7 @@ S.setJointAngles(S.getJointAngles() + alpha * dq);
 
 // <variant steps_of_the_first_posture> caught by: full-steps, small-steps, motion-other-robot
 // mistake: The joint angles are added up, but S stays where it is.
+// ask: All steps are those of the first posture: is S moved after each?
 // <solution smallSteps>
 const Eigen::VectorXd q = t == 1 ? S.getJointAngles() : postures.back();
 const Eigen::VectorXd dq = ikStep(S.jacobianPos(body), target - S.kinematicsPos(body), sigma);
@@ -136,6 +149,7 @@ postures.push_back(q + alpha * dq);
 
 // <variant wrong_start_posture> caught by: small-steps, full-steps
 // mistake: Every step starts again from the first posture instead of the outcome of the step before.
+// ask: All postures are the same: does every step begin where the first one did?
 // <solution smallSteps>
 Simulator fresh = S;
 const Eigen::VectorXd q = S.getJointAngles();
@@ -144,6 +158,7 @@ postures.push_back(fresh.getJointAngles());
 
 // <variant target_not_interpolated> caught by: line, motion-other-robot
 // mistake: The hand is sent to the far target at once, at every step.
+// ask: Is the body sent to the far target at once, in every step?
 // <solution straightLine>
 for (int t = 1; t <= T; ++t) {
   S.setJointAngles(S.getJointAngles() + ikStep(S.jacobianPos(body), target - S.kinematicsPos(body), sigma));
@@ -153,12 +168,14 @@ for (int t = 1; t <= T; ++t) {
 // <variant circle_in_another_plane> caught by: circle
 // shown by: circle
 // mistake: The circle lies flat in the plane of x and y instead of standing in that of x and z.
+// ask: Does your circle lie in the plane of x and y? Wanted is that of x and z.
 // <solution circle>
 // in place of: const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(angle), 0,
 const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
 
 // <variant circle_one_step_late> caught by: circle, motion-other-robot
 // mistake: The angle counts from zero, so the hand is always where it should have been a step ago.
+// ask: Is the point on the circle that of one step earlier?
 // <solution circle>
 // in place of: const double angle = t / 20.;
 const double angle = (t - 1) / 20.;
