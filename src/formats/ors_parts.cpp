@@ -71,6 +71,19 @@ void readFrames(const Attributes& attributes, const JointSurroundings& around, J
   }
 }
 
+// Coordinates of the joint; empty if they are not given.
+Eigen::VectorXd readCoordinates(const Attributes& attributes, const char* name, const JointSpec& joint) {
+  const auto q = attributes.row(name, {positionCount(joint.type)});
+  if (!q) return {};
+  const bool hasQuaternion = positionCount(joint.type) != velocityCount(joint.type);
+  const double length = hasQuaternion ? q->tail<4>().norm() : 1;
+  if (!(length > 0) || !std::isfinite(length)) {
+    attributes.fail(name, fmt::format("a quaternion of length {}", length),
+                    "a quaternion w x y z that can be normalised");
+  }
+  return *q;
+}
+
 void readStart(const Attributes& attributes, JointSpec& joint, Diagnostics& notes) {
   const auto Q = attributes.pose("Q");
   if (joint.type == JointType::kRigid) {
@@ -87,15 +100,7 @@ void readStart(const Attributes& attributes, JointSpec& joint, Diagnostics& note
                       Severity::kWarning, notes);
     }
   }
-  if (const auto q = attributes.row("q", {positionCount(joint.type)})) {
-    const bool hasQuaternion = positionCount(joint.type) != velocityCount(joint.type);
-    const double length = hasQuaternion ? q->tail<4>().norm() : 1;
-    if (!(length > 0) || !std::isfinite(length)) {
-      attributes.fail("q", fmt::format("a quaternion of length {}", length),
-                      "a quaternion w x y z that can be normalised");
-    }
-    joint.q0 = *q;
-  }
+  if (const Eigen::VectorXd q = readCoordinates(attributes, "q", joint); q.size() > 0) joint.q0 = q;
 }
 
 void readLimits(const Attributes& attributes, JointSpec& joint) {
@@ -127,6 +132,9 @@ void noteUseless(const Attributes& attributes, const JointSpec& joint, Diagnosti
     if (joint.mimic.empty() && attributes.has(name))
       attributes.note(name, "is ignored: without 'mimic' the joint follows no other", Severity::kWarning,
                       notes);
+  if (attributes.size("stiffness").value_or(0) == 0 && attributes.has("spring_reference"))
+    attributes.note("spring_reference", "is ignored: without 'stiffness' the joint has no spring",
+                    Severity::kWarning, notes);
   if (joint.type != JointType::kScrew && attributes.has("pitch"))
     attributes.note("pitch", "is ignored: only a screw has one", Severity::kWarning, notes);
 }
@@ -163,7 +171,8 @@ void fix(const Attributes& attributes, JointSpec& joint) {
   const Eigen::VectorXd q = joint.start();
   joint.X_PF = joint.X_PF * (Q ? *Q : jointMotion(joint.type, joint.axis, joint.pitch, q.data()));
   joint.type = JointType::kRigid;
-  for (Eigen::VectorXd* values : {&joint.q0, &joint.lower, &joint.upper}) values->resize(0);
+  for (Eigen::VectorXd* values : {&joint.q0, &joint.lower, &joint.upper, &joint.springReference})
+    values->resize(0);
 }
 
 }  // namespace
@@ -212,6 +221,9 @@ void readJoint(const Attributes& attributes, const JointSurroundings& around, Jo
                                                   "fixed",
                                                   "damping",
                                                   "friction",
+                                                  "armature",
+                                                  "stiffness",
+                                                  "spring_reference",
                                                   "agent",
                                                   "gains",
                                                   "m"};
@@ -228,9 +240,13 @@ void readJoint(const Attributes& attributes, const JointSurroundings& around, Jo
   noteStartOutside(attributes, joint, notes);
   noteStrangeAngles(attributes, joint, notes);
   attributes.noteFlags({"fixed", "BinvA"}, notes);
-  if (attributes.flag("fixed")) fix(attributes, joint);
   joint.damping = attributes.size("damping").value_or(0);
   joint.friction = attributes.size("friction").value_or(0);
+  joint.armature = attributes.size("armature").value_or(0);
+  joint.stiffness = attributes.size("stiffness").value_or(0);
+  if (joint.stiffness > 0 && positionCount(joint.type) > 0)
+    joint.springReference = readCoordinates(attributes, "spring_reference", joint);
+  if (attributes.flag("fixed")) fix(attributes, joint);
   if (attributes.number("agent").value_or(0) != 0)
     attributes.note("agent", "is ignored: one agent moves all joints", Severity::kNote, notes);
   if (attributes.has("gains"))

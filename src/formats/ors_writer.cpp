@@ -241,6 +241,10 @@ Parts jointParts(const JointSpec& joint) {
   addMimic(joint, parts);
   addNumber("damping", joint.damping, 0, parts);
   addNumber("friction", joint.friction, 0, parts);
+  addNumber("armature", joint.armature, 0, parts);
+  addNumber("stiffness", joint.stiffness, 0, parts);
+  if (joint.stiffness != 0 && joint.springReference.size() > 0)
+    parts.push_back("spring_reference=" + numbersText(joint.springReference));
   return parts;
 }
 

@@ -67,9 +67,9 @@ struct Solid {
   Markup::Attributes sizes;
 };
 
-class Writer {
+class UrdfWriter {
  public:
-  Writer(const SceneSpec& spec, fs::path folder, Losses losses)
+  UrdfWriter(const SceneSpec& spec, fs::path folder, Losses losses)
       : model_(compile(spec)),
         folder_(std::move(folder)),
         losses_(std::move(losses)),
@@ -117,6 +117,9 @@ class Writer {
     const bool isWhole = joint.type == JointType::kPlanarXYPhi || joint.type == JointType::kFree;
     if (isWhole && (joint.lower.size() > 0 || joint.upper.size() > 0))
       losses_.add("limits of planar and free joints are left out", joint.name, joint.where);
+    if (joint.type == JointType::kRigid) return;
+    if (joint.armature != 0) losses_.add("armatures of joints are left out", joint.name, joint.where);
+    if (joint.stiffness != 0) losses_.add("springs of joints are left out", joint.name, joint.where);
   }
 
   bool needsWorld() const {
@@ -312,7 +315,7 @@ UrdfText writeUrdf(const SceneSpec& spec, const std::filesystem::path& folder) {
   requireNames(spec);
   Losses losses;
   const SceneSpec named = withOwnNames(spec, losses);
-  UrdfText urdf = Writer(named, folder, std::move(losses)).write();
+  UrdfText urdf = UrdfWriter(named, folder, std::move(losses)).write();
   requireReadable(urdf.text, ".urdf");
   return urdf;
 }

@@ -222,6 +222,10 @@ void checkJoint(const JointSpec& joint) {
                 "a number >= 0");
   requireNumber(joint.friction, "friction", joint.friction >= 0 && std::isfinite(joint.friction),
                 "a number >= 0");
+  requireNumber(joint.armature, "armature", joint.armature >= 0 && std::isfinite(joint.armature),
+                "a number >= 0");
+  requireNumber(joint.stiffness, "stiffness", joint.stiffness >= 0 && std::isfinite(joint.stiffness),
+                "a number >= 0");
   requireNumber(joint.mimicRatio, "ratio", std::isfinite(joint.mimicRatio), "a finite number");
   requireNumber(joint.mimicOffset, "offset", std::isfinite(joint.mimicOffset), "a finite number");
   const auto checkCount = [&](const Eigen::VectorXd& values, const char* name) {
@@ -234,12 +238,26 @@ void checkJoint(const JointSpec& joint) {
   checkCount(joint.q0, "initial coordinates");
   checkCount(joint.lower, "lower limits");
   checkCount(joint.upper, "upper limits");
+  checkCount(joint.springReference, "reference of the spring");
   if (!joint.q0.allFinite()) fail(joint.where, what + ": initial coordinates", "inf", "finite numbers");
+  if (!joint.springReference.allFinite())
+    fail(joint.where, what + ": reference of the spring", "inf", "finite numbers");
   for (Eigen::Index i = 0; i < std::min(joint.lower.size(), joint.upper.size()); ++i) {
     if (joint.lower[i] > joint.upper[i])
       fail(joint.where, what + ": limits", fmt::format("{} > {}", joint.lower[i], joint.upper[i]),
            "lower <= upper");
   }
+}
+
+Eigen::VectorXd springReferenceOf(const JointSpec& spec) {
+  Eigen::VectorXd q = spec.springReference;
+  if (q.size() == 0) return jointCoordinates(spec.type, spec.axis, Pose{});
+  if (positionCount(spec.type) == velocityCount(spec.type)) return q;
+  if (!(q.tail<4>().norm() > 1e-9))
+    fail(spec.where, fmt::format("joint '{}': reference of the spring", spec.name),
+         "a quaternion of length zero", "another one");
+  q.tail<4>().normalize();
+  return q;
 }
 
 Joint makeJoint(const JointSpec& spec, BodyId parent, BodyId child) {
@@ -256,8 +274,11 @@ Joint makeJoint(const JointSpec& spec, BodyId parent, BodyId child) {
   joint.maxEffort = spec.maxEffort;
   joint.damping = spec.damping;
   joint.friction = spec.friction;
+  joint.armature = spec.armature;
+  joint.stiffness = spec.stiffness;
   joint.nq = positionCount(spec.type);
   joint.nv = velocityCount(spec.type);
+  joint.springReference = springReferenceOf(spec);
   const Pose X_CM = spec.X_MC.inverse();
   const auto freedoms = freedomsOf(movements(spec.type, joint.axis, spec.pitch));
   std::transform(freedoms.begin(), freedoms.begin() + joint.nv, joint.freedoms.begin(),
@@ -367,6 +388,14 @@ void shareCoordinates(std::vector<Joint>& joints, const std::vector<const JointS
     }
     narrowLimits(spec, joint, all);
   }
+}
+
+// What the armatures add to the diagonal of the mass matrix.
+Eigen::VectorXd armatureOf(const std::vector<Joint>& joints, int nv) {
+  Eigen::VectorXd armature = Eigen::VectorXd::Zero(nv);
+  for (const Joint& joint : joints)
+    armature.segment(joint.vIndex, joint.nv).array() += joint.ratio * joint.ratio * joint.armature;
+  return armature;
 }
 
 using BodyNames = std::unordered_map<std::string, BodyId>;
@@ -491,6 +520,9 @@ Model compile(const SceneSpec& spec) {
   model.lower_ = std::move(coordinates.lower);
   model.upper_ = std::move(coordinates.upper);
   model.nv_ = coordinates.nv;
+  model.armature_ = armatureOf(model.joints_, model.nv_);
+  model.hasSprings_ = std::ranges::any_of(
+      model.joints_, [](const Joint& joint) { return joint.nv > 0 && joint.stiffness > 0; });
   for (const auto& [name, index] : tree.firstBodyByName)
     model.bodyByName_.emplace(name, idOfSpec[static_cast<std::size_t>(index)]);
   model.fileOrder_ = std::move(idOfSpec);

@@ -47,6 +47,7 @@ struct Link {
   double mass = 0;      ///< kg
   double moment[3]{};   ///< mass times centre of mass, in L, kg m
   double inertia[6]{};  ///< about L's origin, in L, kg m^2: xx, xy, xz, yy, yz, zz
+  double armature = 0;  ///< added to the inertia that each entry of v meets: kg m^2, for a slider kg
   /// An upper bound of the inertia that its coordinate meets (kg m^2, for a slider kg) while sliders below
   /// stay within reach of their zero: a scale that separates a small inertia from none.
   double largestInertia = 0;

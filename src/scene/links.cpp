@@ -123,6 +123,7 @@ Place append(const Joint& joint, const Place& parent, std::vector<Link>& links) 
               .ratio = joint.ratio,
               .offset = joint.offset};
     if (link.kind == Kind::kScrew) link.pitch = joint.pitch / (2 * std::numbers::pi);
+    link.armature = joint.ratio * joint.ratio * joint.armature;
     const Pose X_AL = link.kind == Kind::kQuaternion ? Pose{} : frameAlong(movement.axis);
     const Pose X_PL = at.X_LA * X_AL;
     Eigen::Map<Eigen::Matrix<double, 3, 4>>{link.X_PL} << X_PL.R, X_PL.p;
@@ -163,6 +164,7 @@ void setLargestInertias(std::vector<Link>& links) {
     reach.add({link.mass, I[0] + I[3] + I[5]}, 0);
     const double turning = reach.inertia, moving = reach.mass;
     link.largestInertia = link.kind == Kind::kSlider ? moving : turning + link.pitch * link.pitch * moving;
+    link.largestInertia += link.armature;
     if (link.parent == Link::kNoParent) continue;
     const Eigen::Vector3d p_PL = Eigen::Map<const Eigen::Vector3d>(link.X_PL + 9);
     reaches[static_cast<std::size_t>(link.parent)].add(reach, p_PL.norm());

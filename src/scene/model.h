@@ -62,6 +62,8 @@ struct Joint {
   double maxVelocity = std::numeric_limits<double>::infinity();  ///< see JointSpec
   double maxEffort = std::numeric_limits<double>::infinity();
   double damping = 0, friction = 0;
+  double armature = 0, stiffness = 0;
+  Eigen::VectorXd springReference{};          ///< nq, of its own coordinate; a unit quaternion
   std::array<DegreeOfFreedom, 6> freedoms{};  ///< the first nv are used
 };
 
@@ -150,6 +152,11 @@ class Model {
   const Eigen::VectorXd& upperLimits() const { return upper_; }
   /// Sum of all masses, kg.
   double mass() const { return mass_; }
+  /// What the armature of joints adds to the diagonal of the mass matrix, nv; that of mimic joints times
+  /// ratio^2.
+  const Eigen::VectorXd& armature() const { return armature_; }
+  /// Whether a joint has stiffness.
+  bool hasSprings() const { return hasSprings_; }
 
  private:
   friend Model compile(const SceneSpec& spec);
@@ -167,7 +174,8 @@ class Model {
   std::vector<Pin> pins_;
   std::vector<NamedPosture> postures_;
   std::unordered_map<std::string, BodyId> bodyByName_;
-  Eigen::VectorXd q0_, lower_, upper_;
+  Eigen::VectorXd q0_, lower_, upper_, armature_;
+  bool hasSprings_ = false;
   int nv_ = 0;
   double mass_ = 0;
 };

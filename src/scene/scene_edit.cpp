@@ -96,11 +96,16 @@ void requireReversible(const SceneSpec& spec, const JointSpec& joint) {
     fail(joint, "cannot be reversed", "a mimic with several coordinates", "one coordinate, or no mimic");
   if (joint.type == JointType::kFree && joint.lower.size() > 0)
     fail(joint, "cannot be reversed", "limits of a free joint", "none");
-  for (const Eigen::VectorXd* limits : {&joint.lower, &joint.upper}) {
-    if (limits->size() != 0 && limits->size() != positionCount(joint.type))
-      fail(joint, "limits", fmt::format("{} numbers", limits->size()),
+  if (joint.type == JointType::kFree && (joint.armature > 0 || joint.stiffness > 0))
+    fail(joint, "cannot be reversed", "an armature or a spring of a free joint", "none");
+  const auto requireCount = [&](const Eigen::VectorXd& values, const char* what) {
+    if (values.size() != 0 && values.size() != positionCount(joint.type))
+      fail(joint, what, fmt::format("{} numbers", values.size()),
            fmt::format("{}", positionCount(joint.type)));
-  }
+  };
+  requireCount(joint.lower, "limits");
+  requireCount(joint.upper, "limits");
+  requireCount(joint.springReference, "reference of the spring");
 }
 
 // X_FM(q)^-1 is the motion of a joint, too. With one coordinate it is the motion about the opposite axis.
@@ -117,6 +122,7 @@ void reverse(JointSpec& joint) {
   joint.type = reversal.type;
   if (reversal.count == 0) return;
   joint.q0 = reordered(joint.q0, reversal);
+  joint.springReference = reordered(joint.springReference, reversal);
   const int n = positionCount(joint.type);
   if (joint.lower.size() == 0 && joint.upper.size() > 0) joint.lower.setConstant(n, -kUnlimited);
   if (joint.upper.size() == 0 && joint.lower.size() > 0) joint.upper.setConstant(n, kUnlimited);

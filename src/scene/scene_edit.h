@@ -24,7 +24,7 @@ std::size_t removeMeshesWithoutFile(SceneSpec& spec);
 /// The same bodies at the same initial poses, but with `body` as the root: all joints between it and the
 /// old root are reversed. A joint of one coordinate keeps its value; with several, the values change sign
 /// or order; named postures are left out. Throws Error if one of these joints is attached to the world, is a
-/// free joint with limits, or has several coordinates and mimics or is mimicked.
+/// free joint with limits, an armature or a spring, or has several coordinates and mimics or is mimicked.
 [[nodiscard]] SceneSpec reconfigureRoot(SceneSpec spec, const std::string& body);
 
 }  // namespace rex

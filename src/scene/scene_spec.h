@@ -81,7 +81,7 @@ struct BodySpec {
 
 /// A joint: X_W,child = X_W,parent * X_PF * X_FM(q) * X_MC. Parent and child name the first body of that
 /// name; the parent may be "world". Damping and friction oppose the motion with damping * v + friction *
-/// sign(v).
+/// sign(v). A spring pulls with stiffness * (q - springReference), at quaternions by the turn from there.
 struct JointSpec {
   std::string name;
   std::string parent, child;
@@ -97,6 +97,9 @@ struct JointSpec {
   double maxEffort = kUnlimited;           ///< N m or N
   double damping = 0;                      ///< N m s/rad or N s/m
   double friction = 0;                     ///< N m or N
+  double armature = 0;                ///< of the motor, added to the inertia of each coordinate: kg m^2 or kg
+  double stiffness = 0;               ///< of a spring: N m/rad or N/m
+  Eigen::VectorXd springReference{};  ///< its coordinates where the spring rests; empty: the zero position
   SourceLocation where{};
 
   /// q0, or the zero position if that is empty.

@@ -223,6 +223,10 @@ constexpr Row kErrors[] = {
      "joint 'j': attribute 'limits': found 1 > -1, wanted pairs 'low high' with low <= high"},
     {"body a {}\nbody b {}\njoint j (a b) { ctrl_limits=@[1 -1 0]@ }", "[1 1 0]",
      "joint 'j': attribute 'ctrl_limits': found -1, wanted the largest velocity and effort, both >= 0"},
+    {"body a {}\nbody b {}\njoint j (a b) { armature=@-1@ }", "1",
+     "joint 'j': attribute 'armature': found -1, wanted a number >= 0"},
+    {"body a {}\nbody b {}\njoint j (a b) { stiffness=@-1@ }", "1",
+     "joint 'j': attribute 'stiffness': found -1, wanted a number >= 0"},
     {"body a {}\nbody b {}\njoint j (a b) { damping=@-1@ }", "1",
      "joint 'j': attribute 'damping': found -1, wanted a number >= 0"},
     {"body a {}\nbody b {}\njoint j (a b) { type=universal q=@1@ }", "[1 0]",
@@ -230,6 +234,11 @@ constexpr Row kErrors[] = {
     {"body a {}\nbody b {}\njoint j (a b) { type=quatBall q=@[0 0 0 0]@ }", "[1 0 0 0]",
      "joint 'j': attribute 'q': found a quaternion of length 0, wanted a quaternion w x y z that can be "
      "normalised"},
+    {"body a {}\nbody b {}\njoint j (a b) { type=quatBall stiffness=1 spring_reference=@[0 0 0 0]@ }",
+     "[1 0 0 0]",
+     "joint 'j': attribute 'spring_reference': found a quaternion of length 0, wanted a quaternion w x y z "
+     "that "
+     "can be normalised"},
     {"body a {}\nbody b {}\njoint j (a b) { mimic=@3@ }\nbody c {}\njoint three (a c) {}", "three",
      "joint 'j': attribute 'mimic': found the number 3, wanted the name of a joint"},
     // the tree
@@ -288,6 +297,9 @@ constexpr Row kNotes[] = {
      "warning: joint 'a>b': attribute 'mimic_ratio' is ignored: without 'mimic' the joint follows no other"},
     {"body a {}\nbody b {}\njoint (a b) { @mimic_offset=^2@ }", "",
      "warning: joint 'a>b': attribute 'mimic_offset' is ignored: without 'mimic' the joint follows no other"},
+    {"body a {}\nbody b {}\njoint (a b) { @spring_reference=^2@ }", "",
+     "warning: joint 'a>b': attribute 'spring_reference' is ignored: without 'stiffness' the joint has no "
+     "spring"},
     {"body a {}\nbody b {}\njoint (a b) { pitch=^2 @type=0@ }", "type=screw",
      "warning: joint 'a>b': attribute 'pitch' is ignored: only a screw has one"},
     {"body a { type=1 size=^[0 0 0@@] }", " 1",

@@ -55,6 +55,9 @@ void expectSameJoint(const Joint& got, const Joint& wanted) {
   EXPECT_EQ(got.maxEffort, wanted.maxEffort);
   EXPECT_EQ(got.damping, wanted.damping);
   EXPECT_EQ(got.friction, wanted.friction);
+  EXPECT_EQ(got.armature, wanted.armature);
+  EXPECT_EQ(got.stiffness, wanted.stiffness);
+  EXPECT_EQ(got.springReference, wanted.springReference);
 }
 
 void expectSameBody(const Body& got, const Body& wanted) {

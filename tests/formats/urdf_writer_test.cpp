@@ -373,6 +373,8 @@ TEST(UrdfWriter, NotesWhatUrdfCannotSay) {
     return notesOf(ors("body a {}\nbody b {}\njoint j (a b) { " + attributes + " }"));
   };
   EXPECT_EQ(joint("q=1"), Notes{"initial coordinates are left out: 'j'"});
+  EXPECT_EQ(joint("armature=1 stiffness=2"),
+            (Notes{"armatures of joints are left out: 'j'", "springs of joints are left out: 'j'"}));
   EXPECT_EQ(joint("type=transX"), Notes{"missing limits became 1e9: 4, first 'j'"});
   EXPECT_EQ(joint("type=transXYPhi limits=[0 1 0 1 0 1]"),
             Notes{"limits of planar and free joints are left out: 'j'"});

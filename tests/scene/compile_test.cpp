@@ -194,6 +194,27 @@ TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
                    "joint 'j': damping: found -1");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].friction = nan; })),
                    "joint 'j': friction: found nan");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].armature = -1; })),
+                   "joint 'j': armature: found -1, wanted a number >= 0");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].stiffness = nan; })),
+                   "joint 'j': stiffness: found nan");
+  EXPECT_REX_ERROR(
+      compile(broken([&](SceneSpec& s) { s.joints[0].springReference = Eigen::Vector2d(1, 2); })),
+      "joint 'j': reference of the spring: found 2 numbers, wanted 1");
+  EXPECT_REX_ERROR(
+      compile(broken([&](SceneSpec& s) { s.joints[0].springReference = Eigen::VectorXd::Constant(1, nan); })),
+      "joint 'j': reference of the spring: found nan, wanted numbers");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) {
+                     s.joints[0].springReference = Eigen::VectorXd::Constant(1, HUGE_VAL);
+                   })),
+                   "joint 'j': reference of the spring: found inf, wanted finite numbers");
+  EXPECT_REX_ERROR(
+      compile(broken([&](SceneSpec& s) {
+        s.joints[0].type = JointType::kBall;
+        s.joints[0].q0 = s.joints[0].lower = s.joints[0].upper = {};
+        s.joints[0].springReference = Eigen::Vector4d::Zero();
+      })),
+      "joint 'j': reference of the spring: found a quaternion of length zero, wanted another one");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].mimicRatio = nan; })),
                    "joint 'j': ratio: found nan");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].mimicOffset = nan; })),

@@ -168,6 +168,13 @@ TEST(ReconfigureRoot, SaysWhatCannotBeTurned) {
   spec.joints[2].upper = Eigen::VectorXd::Constant(7, 1);
   EXPECT_REX_ERROR(reconfigureRoot(spec, "b3"),
                    "joint 'third': cannot be reversed: found limits of a free joint, wanted none");
+  spec.joints[2].lower.resize(0);
+  spec.joints[2].upper.resize(0);
+  spec.joints[2].stiffness = 1;
+  EXPECT_REX_ERROR(
+      reconfigureRoot(spec, "b3"),
+      "joint 'third': cannot be reversed: found an armature or a spring of a free joint, wanted none");
+  spec.joints[2].stiffness = 0;
   spec.joints[0].parent = "world";
   EXPECT_REX_ERROR(reconfigureRoot(spec, "b1"),
                    "joint 'first': cannot be reversed: found a joint of the world");

@@ -93,6 +93,13 @@ void addDetails(Rng& rng, SceneSpec& spec) {
     spec.joints[j].lower.array() += spec.joints[j].mimicOffset;
     spec.joints[j].upper.array() += spec.joints[j].mimicOffset;
   }
+  for (JointSpec& joint : spec.joints) {
+    if (joint.type == JointType::kRigid) continue;
+    if (rng.index(2) == 0) joint.armature = rng.uniform(0, 3);
+    if (rng.index(2) == 0) joint.stiffness = rng.uniform(0, 9);
+    if (joint.stiffness > 0 && rng.index(2) == 0)
+      joint.springReference = rng.normalVector(positionCount(joint.type));
+  }
 }
 
 Eigen::VectorXd randomPositions(Rng& rng, int nq) { return rng.normalVector(nq); }

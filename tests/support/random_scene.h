@@ -16,8 +16,8 @@ Pose randomPose(Rng& rng);
 /// axes, masses and off-centre inertias.
 SceneSpec randomScene(Rng& rng, int bodies);
 
-/// Gives it shapes of all types, limits, a start, damping, and joints that follow others: all that a spec can
-/// say. Meshes are named only.
+/// Gives it shapes of all types, limits, a start, damping, armatures, springs, and joints that follow others:
+/// all that a spec can say. Meshes are named only.
 void addDetails(Rng& rng, SceneSpec& spec);
 
 /// Random coordinates for it, with quaternions of any length.
