@@ -28,6 +28,7 @@ void differentiate(const Model& model, const VectorArg& q, const VectorArg& v, c
               .given = &accelerations,
               .result = derivatives,
               .memory = internal::roomFor(kernel, model, 1, workspace)});
+  u_a.diagonal() += model.armature();
 }
 
 }  // namespace

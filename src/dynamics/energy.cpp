@@ -1,6 +1,7 @@
 #include "dynamics/energy.h"
 
 #include "base/error.h"
+#include "dynamics/joint_springs.h"
 #include "dynamics/spatial_internal.h"
 #include "scene/state.h"
 
@@ -21,6 +22,8 @@ Energy energy(const Model& model, const VectorArg& q, const VectorArg& v, const 
     energy.kinetic += 0.5 * (body.mass * body.velocity(V[i]).squaredNorm() + w.dot(body.I * w));
     energy.potential -= body.mass * gravity_W.dot(body.p);
   }
+  energy.kinetic += 0.5 * v.dot(model.armature().cwiseProduct(v));
+  energy.potential += springEnergy(model, q);
   return energy;
 }
 
@@ -52,6 +55,8 @@ EnergyGradient energyGradient(const Model& model, const VectorArg& q, const Vect
     };
     internal::forEachFreedomOf(model, BodyId{i}, add);
   }
+  gradient.byPosition -= springForces(model, q);
+  gradient.byVelocity += model.armature().cwiseProduct(v);
   // For a quaternion, v is not the rate of the coordinates but turns with the body: hence Euler's w x p.
   forEachQuaternion(model, [&](int, int iv) {
     const Eigen::Vector3d w = v.segment<3>(iv), p = gradient.byVelocity.segment<3>(iv);

@@ -11,7 +11,8 @@ struct Energy {
 };
 
 /// T = sum of m v^2 / 2 + w^T I w / 2, and U = -sum of m g^T p, over all bodies with mass, including those
-/// that cannot move. Slides 3:22 and 3:25. Throws as inverseDynamics.
+/// that cannot move, and what the armature and the springs of joints hold. Slides 3:22 and 3:25. Throws as
+/// inverseDynamics.
 [[nodiscard]] Energy energy(const Model& model, const VectorArg& q, const VectorArg& v,
                             const Eigen::Vector3d& gravity_W = earthGravity());
 /// Overload for hot loops.

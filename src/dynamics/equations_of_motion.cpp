@@ -21,6 +21,7 @@ void massMatrix(const Model& model, const VectorArg& q, DynamicsWorkspace& works
   const auto kernel = kernelFor<internal::MassMatrixKernel>(cpuLanes());
   kernel.one(model.links().data(), static_cast<int>(model.links().size()), q.data(),
              internal::roomFor(kernel, model, 1, workspace), M.data(), M.outerStride(), model.nv());
+  M.diagonal() += model.armature();
 }
 
 Eigen::MatrixXd massMatrix(const Model& model, const VectorArg& q) {

@@ -103,8 +103,8 @@ inline Inertia<T> inParent(const KernelPose<T>& X, const Inertia<T>& I) {
   return moved(X.p, rotated(X.R, I.A), X.R * transposed(I.B) * transposed(X.R), rotated(X.R, I.D));
 }
 
-// The same for a link whose hinge has yielded: it resists no torque about z, so a third of the products are
-// zero.
+// The same for a link whose hinge has yielded and has no armature: it resists no torque about z, so a third
+// of the products are zero.
 template <class T>
 inline Inertia<T> inParentOfHinge(const KernelPose<T>& X, const Inertia<T>& I) {
   const Vec3<T>&x = X.R.c0, &y = X.R.c1;
@@ -165,6 +165,7 @@ template <class T>
 inline bool solveForFreedoms(const Link& link, const double* const* u, State<T>& state, Freedom<T>* own) {
   const T least(ForwardDynamicsKernel::kLeastShare * link.largestInertia);
   const auto solve = [&](Freedom<T>& freedom, int i, T inertia, T resistance) {
+    if (link.armature != 0) inertia = inertia + T(link.armature);
     freedom.perInertia = T(1.0) / inertia;
     freedom.rest = gathered<T>(u, link.vIndex + i) - resistance;
     eliminate(freedom, state.inertia, state.resistance);
@@ -224,9 +225,9 @@ inline int solve(const DynamicsTask& task, const double* const* q, const double*
     if (!solveForFreedoms(link, u, state, freedoms + link.vIndex)) return i;
     if (link.parent == Link::kNoParent) continue;
     State<T>& parent = states[link.parent];
-    parent.inertia =
-        parent.inertia + (link.kind == Link::Kind::kHinge ? inParentOfHinge(state.X_PL, state.inertia)
-                                                          : inParent(state.X_PL, state.inertia));
+    parent.inertia = parent.inertia + (link.kind == Link::Kind::kHinge && link.armature == 0
+                                           ? inParentOfHinge(state.X_PL, state.inertia)
+                                           : inParent(state.X_PL, state.inertia));
     parent.resistance =
         parent.resistance + inParent(state.X_PL, state.resistance + state.inertia * state.bias);
   }

@@ -77,6 +77,14 @@ inline void addToForces(const Link& link, const Motion<T>& m, T* forces) {
   }
 }
 
+// What it takes to move what turns with the coordinate only.
+template <class T>
+inline void addArmature(const Link& link, const double* const* a, T* forces) {
+  const int count = link.kind == Link::Kind::kQuaternion ? 3 : 1;
+  for (int i = link.vIndex; i < link.vIndex + count; ++i)
+    forces[i] = forces[i] + T(link.armature) * gathered<T>(a, i);
+}
+
 // The recursion of Newton and Euler: outwards with accelerations of origins, inwards with forces. An upward
 // acceleration of everything stands for gravity.
 template <class T>
@@ -107,6 +115,7 @@ inline void solve(const DynamicsTask& task, const double* const* q, const double
     const Link& link = task.links[i];
     const Motion<T>& m = motions[i];
     addToForces(link, m, forces);
+    if (link.armature != 0) addArmature(link, a, forces);
     if (link.parent == Link::kNoParent) continue;
     Motion<T>& parent = motions[link.parent];
     const Vec3<T> force = m.X_PL.R * m.force;

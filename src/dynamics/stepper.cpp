@@ -16,6 +16,7 @@
 #include "base/rng.h"
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/inverse_dynamics.h"
+#include "dynamics/joint_springs.h"
 #include "geometry/rotation.h"
 #include "scene/state.h"
 
@@ -57,6 +58,7 @@ class HeldMotion {
   Model model_;
   Eigen::Vector3d gravity_W_;
   JointForces jointForces_;
+  bool hasJointForces_;
   std::vector<QuaternionPlace> quaternions_;
   std::vector<Wrench> wrenches_{};
   DynamicsWorkspace workspace_{};
@@ -162,6 +164,7 @@ void jointForces(const Model& model, const VectorArg& q, const VectorArg& v, con
   requireSize("joint forces u", u.size(), model.nv());
   requireValid(forces);
   u.setZero();
+  if (forces.springs) addSpringForces(model, q, u);
   if (forces.friction) addFriction(model, v, forces.frictionSpeed, u);
   if (forces.limitStiffness > 0 || forces.limitDamping > 0) addLimits(model, q, v, forces, u);
 }
@@ -209,6 +212,7 @@ HeldMotion::HeldMotion(const Model& model, const Eigen::Vector3d& gravity_W, con
     : model_(model),
       gravity_W_(gravity_W),
       jointForces_(jointForces),
+      hasJointForces_(jointForces.any(model)),
       u_(Eigen::VectorXd::Zero(model.nv())),
       forces_(Eigen::VectorXd::Zero(model.nv())),
       added_(Eigen::VectorXd::Zero(model.nv())) {
@@ -223,7 +227,7 @@ void HeldMotion::hold(const VectorArg& u, double time) {
 void HeldMotion::accelerate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& a) {
   requireBounded(q, v);
   forces_ = u_;
-  if (jointForces_.any()) {
+  if (hasJointForces_) {
     jointForces(model_, q, v, jointForces_, added_);
     forces_ += added_;
   }

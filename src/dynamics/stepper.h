@@ -9,8 +9,9 @@
 
 namespace rex {
 
-/// Forces of the joints themselves; each must be switched on.
+/// Forces of the joints themselves; all but springs must be switched on.
 struct JointForces {
+  bool springs = true;  ///< those of the scene, see dynamics/joint_springs.h
   /// -damping v - friction tanh(v / frictionSpeed), with the numbers of the scene (Joint::damping, friction).
   bool friction = false;
   double frictionSpeed = 1e-2;  ///< at which friction has reached 76 % of its value, rad/s or m/s
@@ -19,7 +20,10 @@ struct JointForces {
   /// Quaternions have none.
   double limitStiffness = 0;
   double limitDamping = 0;
-  [[nodiscard]] bool any() const { return friction || limitStiffness > 0 || limitDamping > 0; }
+  /// Whether a joint of the model has any.
+  [[nodiscard]] bool any(const Model& model) const {
+    return (springs && model.hasSprings()) || friction || limitStiffness > 0 || limitDamping > 0;
+  }
 };
 
 /// The forces (nv) that joints add to u. Throws Error for wrong sizes, and for settings that are negative

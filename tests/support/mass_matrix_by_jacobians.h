@@ -12,6 +12,10 @@ inline Eigen::MatrixXd massMatrixByJacobians(const Model& model, const Eigen::Ve
     const BodyId id{i};
     const Eigen::Matrix3Xd J = positionJacobian(model, poses, id, model[id].p_BBcm);
     const Eigen::Matrix3Xd Jw = poses[id].R.transpose() * angularJacobian(model, poses, id);
+    if (model[id].joint != kNoJoint) {
+      const Joint& joint = model[model[id].joint];
+      M.diagonal().segment(joint.vIndex, joint.nv).array() += joint.ratio * joint.ratio * joint.armature;
+    }
     M += model[id].mass * J.transpose() * J + Jw.transpose() * model[id].I_BBcm_B * Jw;
   }
   return M;

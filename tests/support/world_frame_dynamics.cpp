@@ -78,6 +78,7 @@ Eigen::VectorXd worldFrameInverseDynamics(const Model& model, const VectorArg& q
     for (int k = 0; k < joint.nv; ++k) {
       const Spatial s = twistOf(joint, joint.freedoms[static_cast<std::size_t>(k)]);
       u[joint.vIndex + k] += s.angular.dot(f[i].angular) + s.linear.dot(f[i].linear);
+      u[joint.vIndex + k] += joint.ratio * joint.armature * (joint.ratio * a[joint.vIndex + k]);
     }
   }
   return u;
