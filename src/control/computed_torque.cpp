@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "control/require_internal.h"
+#include "dynamics/joint_springs.h"
 
 namespace rex {
 
@@ -76,7 +77,8 @@ Eigen::VectorXd followReference(const Model& model, const State& state, const Re
 Eigen::VectorXd computedTorque(const Model& model, const State& state, const Reference& reference,
                                const PdGains& gains, const Eigen::Vector3d& gravity_W) {
   requireFinite("gravity", gravity_W);
-  return inverseDynamics(model, state.q, state.v, followReference(model, state, reference, gains), gravity_W);
+  const Eigen::VectorXd a = followReference(model, state, reference, gains);
+  return inverseDynamics(model, state.q, state.v, a, gravity_W) - springForces(model, state.q);
 }
 
 }  // namespace rex

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "control/require_internal.h"
+#include "dynamics/joint_springs.h"
 #include "dynamics/loop_dynamics.h"
 #include "kinematics/hierarchical_step.h"
 
@@ -36,7 +37,7 @@ Eigen::VectorXd forcesInContact(const Model& model, const State& state,
   const std::vector<TaskValue> held = valuesOf(holds, posture), aimed = valuesOf(aims, posture);
 
   const LoopMotion idle =
-      loopDynamics(model, state, maps, Eigen::VectorXd::Zero(model.nv()), {.gravity_W = options.gravity_W});
+      loopDynamics(model, state, maps, springForces(model, state.q), {.gravity_W = options.gravity_W});
   const LoopResponse change = loopResponse(model, state.q, maps);
   std::vector<TaskLevel> levels;
   TaskLevel forces{Eigen::MatrixXd(0, model.nv()), Eigen::VectorXd(0)};

@@ -9,6 +9,7 @@
 #include "control/require_internal.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
+#include "dynamics/joint_springs.h"
 #include "kinematics/hierarchical_step.h"
 #include "kinematics/inverse_kinematics.h"
 
@@ -34,7 +35,7 @@ std::vector<TaskLevel> wishesOf(const Model& model, const State& state,
   // Throws if M is singular, naming the joint and the body. This comes before the factorisation, which might
   // succeed because of rounding.
   const Eigen::VectorXd fall =
-      forwardDynamics(model, state.q, state.v, Eigen::VectorXd::Zero(model.nv()), gravity_W);
+      forwardDynamics(model, state.q, state.v, springForces(model, state.q), gravity_W);
   const Eigen::LLT<Eigen::MatrixXd> factors(massMatrix(model, state.q));
   assert(factors.info() == Eigen::Success);
   std::vector<Task> plain;

@@ -4,17 +4,24 @@
 
 #include "base/error.h"
 #include "dynamics/forward_dynamics.h"
+#include "dynamics/joint_springs.h"
 
 namespace rex {
 
 RobotSteps::RobotSteps(const Model& model, double step, int parts, const Eigen::Vector3d& gravity_W)
-    : model_(model), h_(step / parts), parts_(parts), gravity_W_(gravity_W) {
+    : model_(model),
+      h_(step / parts),
+      parts_(parts),
+      gravity_W_(gravity_W),
+      stiffness_(Eigen::VectorXd::Zero(model.nv())) {
   if (model.nq() != model.nv())
     throw Error({.what = fmt::format("steps of '{}'", model.name()),
                  .found = "a joint with a quaternion",
                  .wanted = "joints whose positions are sums of velocities"});
   requirePositive("step of a robot", step);
   requireCount("parts of a step", parts, 1);
+  for (const Joint& joint : model.joints())
+    stiffness_.segment(joint.vIndex, joint.nv).array() += joint.ratio * joint.ratio * joint.stiffness;
 }
 
 // With the acceleration in at_.
@@ -30,7 +37,9 @@ Eigen::VectorXd RobotSteps::next(const Eigen::VectorXd& x, const Eigen::VectorXd
   Eigen::VectorXd y = x;
   at_.a.resize(n);
   for (int i = 0; i < parts_; ++i) {
-    forwardDynamics(model_, y.head(n), y.tail(n), u, gravity_W_, workspace_, at_.a);
+    forces_ = u;
+    addSpringForces(model_, y.head(n), forces_);
+    forwardDynamics(model_, y.head(n), y.tail(n), forces_, gravity_W_, workspace_, at_.a);
     move(y);
   }
   return y;
@@ -44,7 +53,10 @@ MotionJacobians RobotSteps::derivative(const Eigen::VectorXd& x, const Eigen::Ve
   Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(n, 3 * n), V = Eigen::MatrixXd::Zero(n, 3 * n);
   V.middleCols(n, n).setIdentity();
   for (int i = 0; i < parts_; ++i) {
-    forwardDynamicsDerivatives(model_, y.head(n), y.tail(n), u, gravity_W_, workspace_, at_);
+    forces_ = u;
+    addSpringForces(model_, y.head(n), forces_);
+    forwardDynamicsDerivatives(model_, y.head(n), y.tail(n), forces_, gravity_W_, workspace_, at_);
+    if (model_.hasSprings()) at_.a_q -= at_.a_u * stiffness_.asDiagonal();
     if (i == 0) {  // times the identity
       V.leftCols(n) += h_ * at_.a_q;
       V.middleCols(n, n) += h_ * at_.a_v;

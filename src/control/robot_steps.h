@@ -26,6 +26,8 @@ class RobotSteps {
   double h_;
   int parts_;
   Eigen::Vector3d gravity_W_;
+  Eigen::VectorXd stiffness_;  // of springs, nv
+  Eigen::VectorXd forces_{};   // u and those of springs
   DynamicsWorkspace workspace_{};
   ForwardDynamicsDerivatives at_{};
 };

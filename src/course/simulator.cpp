@@ -19,6 +19,7 @@
 #include "course/recording.h"
 #include "dynamics/energy.h"
 #include "dynamics/equations_of_motion.h"
+#include "dynamics/joint_springs.h"
 #include "dynamics/stepper.h"
 #include "formats/assets.h"
 #include "formats/ors_writer.h"
@@ -257,7 +258,7 @@ void Simulator::setJointAnglesAndVels(const Eigen::VectorXd& q, const Eigen::Vec
 void Simulator::getDynamics(Eigen::MatrixXd& M, Eigen::VectorXd& F) const {
   const EquationOfMotion motion = equationOfMotion(parts_->model, parts_->q, parts_->v, parts_->gravity_W());
   M = motion.M;
-  F = motion.F;
+  F = motion.F - springForces(parts_->model, parts_->q);
 }
 
 double Simulator::getEnergy() const {

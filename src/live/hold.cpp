@@ -8,6 +8,7 @@
 #include "control/computed_torque.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
+#include "dynamics/joint_springs.h"
 #include "scene/state.h"
 
 namespace rex {
@@ -94,9 +95,11 @@ Eigen::VectorXd Holder::forces(const State& state) const {
 // With the velocity w at the end of the step, u = G + Kp (q* - q - tau w) - Kd w and M (w - v) = tau (u - F).
 Eigen::VectorXd Holder::springForces(const State& state) const {
   auto [M, F] = equationOfMotion(model_, state.q, state.v, gravity_W_);
+  const Eigen::VectorXd pull = rex::springForces(model_, state.q);
+  F -= pull;
   Eigen::VectorXd u = Kp_.cwiseProduct(difference(model_, state.q, target_.q));
   if (hold_ == Hold::kGravity) {
-    Eigen::VectorXd weight = gravityForces(model_, state.q, gravity_W_);
+    Eigen::VectorXd weight = gravityForces(model_, state.q, gravity_W_) - pull;
     for (const int i : undriven_) weight[i] = 0;
     u += weight;
   }
@@ -113,7 +116,8 @@ Eigen::VectorXd Holder::exactForces(const State& state) const {
   if (carrying_.empty()) return computedTorque(model_, state, target_, gains, gravity_W_);
   Eigen::VectorXd a = followReference(model_, state, target_, gains);
   for (const int i : undriven_) a[i] = 0;
-  const auto [M, F] = equationOfMotion(model_, state.q, state.v, gravity_W_);
+  auto [M, F] = equationOfMotion(model_, state.q, state.v, gravity_W_);
+  F -= rex::springForces(model_, state.q);
   const Eigen::VectorXd u = M * a + F;
   const Eigen::VectorXd missing = -u(carrying_);
   const Eigen::MatrixXd base = M(carrying_, carrying_);

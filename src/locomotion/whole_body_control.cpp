@@ -10,6 +10,7 @@
 #include "base/require.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/inverse_dynamics.h"
+#include "dynamics/joint_springs.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
 
@@ -145,7 +146,8 @@ WholeBodyForces WholeBodyControl::forces(const State& state, const WholeBodyGoal
   const VectorXd drift = velocityAcceleration(model_, state, map);
   TaskValue bodies;
   map({model_, state.q, poses}, bodies);
-  const EquationOfMotion motion = equationOfMotion(model_, state.q, state.v);
+  EquationOfMotion motion = equationOfMotion(model_, state.q, state.v);
+  motion.F -= springForces(model_, state.q);
   const Vector3d center = centerOfMass(model_, poses);
   const Corners corners = cornersOf(model_, legs_, sole_, poses, goal);
   const Index nf = corners.J.rows(), size = nv + nf;

@@ -11,6 +11,7 @@
 
 #include "base/require.h"
 #include "dynamics/inverse_dynamics.h"
+#include "dynamics/joint_springs.h"
 #include "scene/state.h"
 
 namespace rex {
@@ -59,6 +60,7 @@ JointLimits jointLimits(const Model& model, const LimitDefaults& defaults) {
       [model = std::make_shared<const Model>(model), workspace = std::make_shared<DynamicsWorkspace>()](
           const VectorArg& q, const VectorArg& v, const VectorArg& a, Eigen::Ref<Eigen::VectorXd> u) {
         inverseDynamics(*model, q, v, a, earthGravity(), *workspace, u);
+        if (model->hasSprings()) u -= springForces(*model, q);
       };
   return result;
 }

@@ -12,6 +12,7 @@
 #include "dynamics/energy.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
+#include "dynamics/joint_springs.h"
 
 namespace rex::cli {
 namespace {
@@ -70,8 +71,11 @@ ExitCode sceneDynamics(const Project& project, const DynamicsOptions& options) {
   const Eigen::VectorXd v = parseVelocities(model, options.velocity);
   const Eigen::VectorXd u = parseForces(model, options.force);
   const Dynamics at = asWrongUse([&] {
-    return Dynamics{v, u, equationOfMotion(model, q, v), energy(model, q, v),
-                    forwardDynamics(model, q, v, u)};
+    const Eigen::VectorXd springs = springForces(model, q);
+    Dynamics all{v, u, equationOfMotion(model, q, v), energy(model, q, v),
+                 forwardDynamics(model, q, v, u + springs)};
+    all.motion.F -= springs;
+    return all;
   });
   noteOverflow(at.motion.M.allFinite() && at.motion.F.allFinite() && at.a.allFinite() &&
                std::isfinite(at.energy.kinetic) && std::isfinite(at.energy.potential));
