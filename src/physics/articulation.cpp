@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <Eigen/Geometry>
 
+#include "dynamics/joint_springs.h"
+#include "geometry/rotation.h"
 #include "physics/articulation_internal.h"
 #include "physics/bullet_shape_internal.h"
 
@@ -38,6 +42,7 @@ void JointRow::measureBase(const btVector3& angular, const btVector3& linear) {
 
 void JointRow::forget() {
   setGoals({});
+  inertia_ = 0;
   for (int i = 0; i < kJointPurposes; ++i) internalSetAppliedImpulse(i, 0);
 }
 
@@ -57,6 +62,7 @@ void JointRow::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBod
     row.m_orgDofIndex = i;
     fillMultiBodyConstraint(row, data, jacobianA(0), jacobianB(0), none, none, none, none, 0, info,
                             goal.lowest, goal.highest, false, 1, false, goal.velocity);
+    if (i == kDamping) inertia_ = row.m_jacDiagABInv;
     const double stiffened = 1 / (1 + goal.softness * row.m_jacDiagABInv);
     row.m_rhs *= stiffened;
     row.m_jacDiagABInv *= stiffened;
@@ -90,8 +96,9 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
   if (isFree) {
     const BulletLink link = bulletLink(model[first.child]);
     base_.emplace(first, X_WP, link.X_BL);
-    baseVIndex_ = first.vIndex;
-    baseDamping_ = options.jointFriction ? first.damping : 0;
+    baseJoint_ = first;
+    baseLaw_ = jointLaw(model, first, 0, options);
+    if (baseLaw_.stiffness > 0) baseState_ = initialState(model);
     grown[static_cast<std::size_t>(first.child)] = {-1, link.X_BL};
     links_.emplace(first.child, -1);
     body_.emplace(linkCount(model, bodies.subspan(1)), link.mass, link.inertia, false, false);
@@ -113,6 +120,7 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
   body_->setMaxCoordinateVelocity(kInfinity);
   body_->setHasSelfCollision(true);
   addRows();
+  addArmature();
 }
 
 Articulation::Grown Articulation::grow(const Model& model, JointId id, const BulletLink& link, Grown parent) {
@@ -163,7 +171,13 @@ void Articulation::addCoordinate(const Model& model, JointId id, const JointMove
                         .ratio = way * joint.ratio,
                         .offset = way * joint.offset,
                         .joint = id};
-  if (!move.isRise) coordinate.law = jointLaw(model, joint, move.coordinate, options_);
+  if (!move.isRise) {
+    coordinate.law = jointLaw(model, joint, move.coordinate, options_);
+    if (coordinate.isBall)
+      coordinate.R_rest = rotationFromQuaternion(joint.springReference.segment<4>(move.coordinate));
+    else
+      coordinate.rest = joint.springReference[move.coordinate];
+  }
   // What it follows has limits.
   if (coordinate.follows) {
     coordinate.law.lower = -kInfinity;
@@ -184,13 +198,32 @@ void Articulation::addCollider(int link, BodyId body, btCollisionShape* shape) {
   colliders_.push_back({std::move(object), body});
 }
 
+bool Articulation::hasBaseRows() const {
+  return base_ && (baseLaw_.damping > 0 || baseLaw_.armature > 0 || baseLaw_.stiffness > 0);
+}
+
 void Articulation::addRows() {
-  if (baseDamping_ > 0) {
+  if (hasBaseRows()) {
     for (int i = 0; i < kBaseVelocities; ++i) rows_.push_back(std::make_unique<JointRow>(*body_));
   }
   for (const Coordinate& coordinate : coordinates_) {
     for (int place = 0; place < (coordinate.isBall ? 3 : 1); ++place)
       rows_.push_back(std::make_unique<JointRow>(*body_, coordinate.link, place));
+  }
+}
+
+void Articulation::addArmature() {
+  std::vector<std::pair<int, double>> all(baseLaw_.armature > 0 ? kBaseVelocities : 0,
+                                          {0, baseLaw_.armature});
+  for (const Coordinate& one : coordinates_)
+    for (int place = 0; place < (one.isBall ? 3 : 1) && one.law.armature > 0; ++place)
+      all.emplace_back(kBaseVelocities + body_->getLink(one.link).m_dofOffset + place, one.law.armature);
+  if (all.empty()) return;
+  armature_.emplace(*body_, static_cast<int>(all.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const int row = static_cast<int>(i);
+    armature_->setInertia(row, all[i].second);
+    if (baseLaw_.armature == 0 || row >= kBaseVelocities) armature_->measure(row, all[i].first);
   }
 }
 
@@ -245,7 +278,7 @@ void Articulation::read(State& state) const {
 // work.
 void Articulation::drive(std::span<const Motor> motors, double h) {
   if (base_) driveBase(motors, h);
-  std::size_t row = baseDamping_ > 0 ? kBaseVelocities : 0;
+  std::size_t row = hasBaseRows() ? kBaseVelocities : 0;
   for (const Coordinate& one : coordinates_) {
     const Motor* const motor = &motors[static_cast<std::size_t>(one.vIndex)];
     if (one.isBall) {
@@ -253,41 +286,69 @@ void Articulation::drive(std::span<const Motor> motors, double h) {
           one.R_ML.transpose() * Eigen::Vector3d(motor[0].target, motor[1].target, motor[2].target);
       for (int i = 0; i < 3; ++i) {
         body_->addJointTorqueMultiDof(one.link, i, force[i]);
-        setGoals(one, i, Motor{}, h, *rows_[row++]);
+        pull(one, i, Motor{}, h, *rows_[row++]);
       }
     } else if (one.follows) {
-      setGoals(one, 0, Motor{}, h, *rows_[row++]);
+      pull(one, 0, Motor{}, h, *rows_[row++]);
     } else {
       if (motor->kind == Motor::Kind::kForce) body_->addJointTorque(one.link, motor->target);
-      setGoals(one, 0, *motor, h, *rows_[row++]);
+      pull(one, 0, *motor, h, *rows_[row++]);
     }
   }
+  if (armature_) armature_->begin();
 }
 
-// Damping is the same in all directions, so the rows can use the axes of W.
+// The laws are the same in all directions, so the rows can use the axes of W.
 void Articulation::driveBase(std::span<const Motor> motors, double h) {
   const FreeMotion::LinkMotion motion = baseMotion();
+  std::vector<Motor> forces;
+  if (baseLaw_.stiffness > 0) {
+    forces.assign(motors.begin(), motors.end());
+    motors = forces;
+    base_->read(motion, baseState_);
+    const SpringStretch stretch = springStretch(baseJoint_, baseState_.q.segment<7>(baseJoint_.qIndex));
+    for (int i = 0; i < kBaseVelocities; ++i)
+      forces[static_cast<std::size_t>(baseJoint_.vIndex + i)].target -= baseLaw_.stiffness * stretch[i];
+  }
   const FreeMotion::Wrench wrench = base_->wrench(motors, motion);
   body_->addBaseForce(toBullet(wrench.force_W));
   body_->addBaseTorque(toBullet(wrench.torque_W));
-  if (baseDamping_ == 0) return;
-  for (std::size_t i = 0; i < kBaseVelocities; ++i) {
-    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(i % 3));
-    if (i < 3)
-      rows_[i]->measureBase(toBullet(base_->p_LM_W(motion).cross(axis)), toBullet(axis));
-    else
-      rows_[i]->measureBase(toBullet(axis), {0, 0, 0});
+  if (!hasBaseRows()) return;
+  const Eigen::Vector3d arm = base_->p_LM_W(motion), w = motion.angular_W;
+  const Eigen::Vector3d drift = h * w.cross(w.cross(arm));
+  for (int i = 0; i < kBaseVelocities; ++i) {
+    JointRow& row = *rows_[static_cast<std::size_t>(i)];
+    const bool isLinear = i < 3;
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i % 3), zero = Eigen::Vector3d::Zero();
+    const Eigen::Vector3d angular = isLinear ? arm.cross(axis) : axis, linear = isLinear ? axis : zero;
+    row.measureBase(toBullet(angular), toBullet(linear));
+    if (baseLaw_.armature > 0) armature_->measureBase(i, angular, linear, isLinear ? drift.dot(axis) : 0);
     JointGoals goals;
-    goals[kDamping] = {0, -kInfinity, kInfinity, 1 / (baseDamping_ * h)};
-    rows_[i]->setGoals(goals);
+    goals[kDamping] =
+        jointGoals(baseLaw_, Motor{}, {.inertia = row.inertia() + baseLaw_.armature}, h)[kDamping];
+    row.setGoals(goals);
   }
 }
 
-void Articulation::setGoals(const Coordinate& one, int place, const Motor& motor, double h,
-                            JointRow& row) const {
-  const double q = body_->getJointPosMultiDof(one.link)[place];
-  const double v = body_->getJointVelMultiDof(one.link)[place];
-  row.setGoals(jointGoals(one.law, motor, q, v, h));
+double Articulation::stretchOf(const Coordinate& one, int place) const {
+  const double* const q = body_->getJointPosMultiDof(one.link);
+  if (!one.isBall) return q[0] - one.rest;
+  Quaternion turn;
+  turn << q[3], one.R_ML * Eigen::Vector3d(q[0], q[1], q[2]);
+  const Eigen::Vector3d stretch_M = logSO3(one.R_rest.transpose() * rotationFromQuaternion(turn));
+  return one.R_ML.col(place).dot(stretch_M);
+}
+
+// Sets the goals of a row, and applies the force of its spring.
+void Articulation::pull(const Coordinate& one, int place, const Motor& motor, double h, JointRow& row) {
+  JointPlace at{.q = body_->getJointPosMultiDof(one.link)[place],
+                .v = body_->getJointVelMultiDof(one.link)[place]};
+  if (one.law.stiffness > 0) {
+    at.stretch = stretchOf(one, place);
+    at.inertia = row.inertia() + one.law.armature;
+    body_->addJointTorqueMultiDof(one.link, place, springImpulse(one.law, at.stretch, h) / h);
+  }
+  row.setGoals(jointGoals(one.law, motor, at, h));
 }
 
 FreeMotion::LinkMotion Articulation::baseMotion() const {
@@ -339,7 +400,7 @@ int Articulation::runaway(double limit) const {
   const auto isTame = [&](const double* v, int count) {
     return std::all_of(v, v + count, [&](double x) { return std::abs(x) < limit; });
   };
-  if (base_ && !isTame(body_->getVelocityVector(), kBaseVelocities)) return baseVIndex_;
+  if (base_ && !isTame(body_->getVelocityVector(), kBaseVelocities)) return baseJoint_.vIndex;
   for (const Coordinate& one : coordinates_) {
     if (!isTame(body_->getJointVelMultiDof(one.link), one.isBall ? 3 : 1)) return one.vIndex;
   }

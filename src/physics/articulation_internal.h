@@ -9,6 +9,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include "physics/armature_internal.h"
 #include "physics/contact_free_motion_internal.h"
 #include "physics/coupling_internal.h"
 #include "physics/simulated_tree_internal.h"
@@ -28,8 +29,11 @@ class JointRow : public btMultiBodyConstraint {
   void measureBase(const btVector3& angular, const btVector3& linear);
 
   void setGoals(const JointGoals& goals) { goals_ = goals; }
-  /// Forgets the goals and the impulses of the last step, from which the solver starts otherwise.
+  /// Forgets the goals and what is known of the last step: the impulses, from which the solver starts
+  /// otherwise, and the inertia.
   void forget();
+  /// That the velocity met in the last step, without armature: kg m^2 or kg; 0 in the first.
+  [[nodiscard]] double inertia() const { return inertia_; }
 
   void finalizeMultiDof() override;
   int getIslandIdA() const override;
@@ -40,6 +44,7 @@ class JointRow : public btMultiBodyConstraint {
 
  private:
   int place_ = 0;
+  double inertia_ = 0;
   JointGoals goals_;
 };
 
@@ -99,6 +104,8 @@ class Articulation : public SimulatedTree {
     double ratio = 1, offset = 0;
     JointId joint = kNoJoint;
     JointLaw law{};
+    double rest = 0;                                       // of the spring
+    Eigen::Matrix3d R_rest = Eigen::Matrix3d::Identity();  // of balls
   };
   struct Collider {
     std::unique_ptr<btMultiBodyLinkCollider> object;
@@ -113,8 +120,11 @@ class Articulation : public SimulatedTree {
   Grown grow(const Model& model, JointId id, const BulletLink& link, Grown parent);
   void addCoordinate(const Model& model, JointId id, const JointMovement& move, const Eigen::Matrix3d& R_ML);
   void addCollider(int link, BodyId body, btCollisionShape* shape);
+  [[nodiscard]] bool hasBaseRows() const;
   void addRows();
-  void setGoals(const Coordinate& one, int place, const Motor& motor, double h, JointRow& row) const;
+  void addArmature();
+  void pull(const Coordinate& one, int place, const Motor& motor, double h, JointRow& row);
+  [[nodiscard]] double stretchOf(const Coordinate& one, int place) const;
   void driveBase(std::span<const Motor> motors, double h);
   [[nodiscard]] FreeMotion::LinkMotion baseMotion() const;
   void setBase(const FreeMotion::LinkMotion& motion);
@@ -123,15 +133,17 @@ class Articulation : public SimulatedTree {
   PhysicsOptions options_;
   btEmptyShape nothing_;
   std::optional<FreeMotion> base_;  // of trees on a free joint
-  int baseVIndex_ = 0;
-  double baseDamping_ = 0;
-  int next_ = 0;  // link to be built
+  Joint baseJoint_{};
+  JointLaw baseLaw_{};
+  State baseState_{};  // of the whole model; if the base has a spring
+  int next_ = 0;       // link to be built
   std::optional<btMultiBody> body_;
   std::map<BodyId, int> links_;
   std::vector<Coordinate> coordinates_;
   std::vector<Collider> colliders_;
-  // Six for a base that is damped, linear before angular; then one per coordinate, three per ball.
+  // Six for a base that has a law, linear before angular; then one per coordinate, three per ball.
   std::vector<std::unique_ptr<JointRow>> rows_;
+  std::optional<Armature> armature_;  // if some joint has one; a base that does comes first
   btAlignedObjectArray<btQuaternion> rotations_;
   btAlignedObjectArray<btVector3> origins_;
   btTransform rememberedBase_;

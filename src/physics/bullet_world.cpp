@@ -291,10 +291,11 @@ Articulation* BulletWorld::addTree(const Model& model, std::span<const BodyId> b
   const Joint& joint = model[model[bodies.front()].joint];
   std::vector<btCollisionShape*> shapes;
   for (const BodyId body : bodies) shapes.push_back(addShape(model, body, bulletLink(model[body]).X_BL));
-  const bool isDamped = options.jointFriction && joint.damping > 0;
+  const bool hasLaw =
+      (options.jointFriction && joint.damping > 0) || joint.armature > 0 || joint.stiffness > 0;
   const bool isPinned = std::ranges::any_of(
       model.pins(), [&](const Pin& pin) { return pin.a == bodies.front() || pin.b == bodies.front(); });
-  if (bodies.size() == 1 && joint.type == JointType::kFree && !isDamped && !isPinned) {
+  if (bodies.size() == 1 && joint.type == JointType::kFree && !hasLaw && !isPinned) {
     if (shapes.front() == nullptr) shapes.front() = &nothing_;
     auto body = std::make_unique<FreeBody>(joint, bulletLink(model[joint.child]), X_WP, shapes.front());
     setUp(body->object(), joint.child, options);

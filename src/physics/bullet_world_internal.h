@@ -10,6 +10,7 @@
 #include <btBulletCollisionCommon.h>
 
 #include "collision/contacts.h"
+#include "physics/armature_internal.h"
 #include "physics/coupling_internal.h"
 #include "physics/overlap_push_internal.h"
 #include "physics/simulated_tree_internal.h"
@@ -87,7 +88,7 @@ class BulletWorld {
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;
-  btMultiBodyConstraintSolver solver_;
+  ArmatureSolver solver_;
   std::optional<Couplings> couplings_;
   SteppingWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   double softness_ = 0;  // of contacts, 1/kg

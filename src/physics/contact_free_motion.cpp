@@ -14,10 +14,25 @@ constexpr double kPositionRate = 20;
 // speed when they are back, so a higher one would throw a robot that starts beyond its limits.
 constexpr double kLimitRate = 20, kLimitSpeed = 1;
 
+// A spring that is felt where the coordinate is at the start of a step keeps its energy, and is stable while
+// stiffness * h^2 is below four times the inertia; springs of several joints may add up. So what exceeds half
+// of the inertia is felt at the end of the step instead, which damps at any stiffness.
+constexpr double kSpringShare = 0.5;
+// Tells Bullet's row to be there, and so what inertia it meets.
+constexpr double kLeastSlope = 1e-9;
+
+// How much less the impulse is per unit of the new velocity.
+double slopeOf(const JointLaw& law, const JointPlace& at, double h) {
+  const double slope = law.damping * h;
+  if (law.stiffness == 0) return slope;
+  const double spring = law.stiffness * h * h;
+  return slope + std::max(spring - kSpringShare * at.inertia, kLeastSlope * spring);
+}
+
 }  // namespace
 
 JointLaw jointLaw(const Model& model, const Joint& joint, int coordinate, const PhysicsOptions& options) {
-  JointLaw law{.maxVelocity = joint.maxVelocity};
+  JointLaw law{.maxVelocity = joint.maxVelocity, .armature = joint.armature, .stiffness = joint.stiffness};
   if (options.jointFriction) {
     law.damping = joint.damping;
     law.friction = joint.friction;
@@ -29,15 +44,17 @@ JointLaw jointLaw(const Model& model, const Joint& joint, int coordinate, const 
   return law;
 }
 
-JointGoals jointGoals(const JointLaw& law, const Motor& motor, double q, double v, double h) {
+JointGoals jointGoals(const JointLaw& law, const Motor& motor, const JointPlace& at, double h) {
   JointGoals goals;
+  const double q = at.q, v = at.v;
   if (motor.kind != Motor::Kind::kForce) {
     const double rate = std::min(kPositionRate, 1 / h);
     const double wanted = motor.kind == Motor::Kind::kVelocity ? motor.target : rate * (motor.target - q);
     goals[kMotor] = {std::clamp(wanted, -law.maxVelocity, law.maxVelocity), -motor.maxForce * h,
                      motor.maxForce * h};
   }
-  if (law.damping > 0) goals[kDamping] = {0, -kInfinity, kInfinity, 1 / (law.damping * h)};
+  if (const double slope = slopeOf(law, at, h); slope > 0)
+    goals[kDamping] = {0, -kInfinity, kInfinity, 1 / slope};
   if (law.friction > 0) goals[kFriction] = {0, -law.friction * h, law.friction * h};
   const double reach = kLimitReach + 2 * h * std::abs(v);
   const auto backOff = [&](double beyond) {
@@ -197,6 +214,8 @@ namespace {
 // Turns of a joint in a step, radians: up to the first, Beeman's method keeps the energy; beyond, steps are
 // cut so that Runge's and Kutta's does, up to the last.
 constexpr double kSmallTurn = 0.01, kMostTurn = 1;
+// The same for the phase of springs; beyond the last they are damped.
+constexpr double kSmallPhase = 0.1, kMostPhase = 2;
 
 bool isHinge(const Joint& joint) {
   return !joint.mimics && (joint.type == JointType::kHinge || joint.type == JointType::kRigid);
@@ -217,11 +236,14 @@ ContactFreeMotion::ContactFreeMotion(const Model& model, const PhysicsOptions& o
   stepper_.emplace(model, StepperOptions{.integrator = Integrator::kBeeman, .gravity_W = options.gravity_W});
   fastStepper_.emplace(model, StepperOptions{.gravity_W = options.gravity_W});
   laws_.resize(static_cast<std::size_t>(model.nv()));
+  stiffness_ = rest_ = Eigen::VectorXd::Zero(model.nv());
   for (const Joint& joint : model.joints()) {
     if (joint.nv == 0) continue;
     const JointLaw law = jointLaw(model, joint, 0, options);
     laws_[static_cast<std::size_t>(joint.vIndex)] = law;
     resists_ = resists_ || law.damping > 0 || law.friction > 0;
+    stiffness_[joint.vIndex] = joint.stiffness;
+    rest_[joint.vIndex] = joint.springReference[0];
   }
 }
 
@@ -250,6 +272,13 @@ bool ContactFreeMotion::onlyForcesAct(const State& state, double h) const {
   return true;
 }
 
+void ContactFreeMotion::findMobility(const State& state) {
+  const Eigen::Index n = state.v.size();
+  motion_.M.resize(n, n);
+  massMatrix(*model_, state.q, workspace_, motion_.M);
+  mobility_ = motion_.M.llt().solve(Eigen::MatrixXd::Identity(n, n)).diagonal();
+}
+
 void ContactFreeMotion::stepFreely(State& state, double h, int count) {
   if (count == 1) return stepper_->step(state, u_, h);
   next_ = state;
@@ -263,7 +292,13 @@ bool ContactFreeMotion::stepWithGoals(State& state, double h) {
   p_.noalias() += motion_.M * state.v;
   for (Eigen::Index i = 0; i < p_.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    impulses_.set(i, jointGoals(laws_[k], motors_[k], state.q[i], state.v[i], h));
+    JointPlace at{.q = state.q[i], .v = state.v[i]};
+    if (laws_[k].stiffness > 0) {
+      at.stretch = state.q[i] - rest_[i];
+      at.inertia = 1 / mobility_[i];
+      p_[i] += springImpulse(laws_[k], at.stretch, h);
+    }
+    impulses_.set(i, jointGoals(laws_[k], motors_[k], at, h));
   }
   v_ = state.v;
   if (!impulses_.solve(motion_.M, p_, v_) || !v_.allFinite()) return false;
@@ -276,8 +311,14 @@ bool ContactFreeMotion::step(State& state, double h) {
   const double turn = state.v.lpNorm<Eigen::Infinity>() * h;
   if (!isAble_ || !(turn < kMostTurn)) return false;
   try {
-    if (!onlyForcesAct(state, h)) return stepWithGoals(state, h);
-    stepFreely(state, h, std::max(1, static_cast<int>(std::ceil(turn / kSmallTurn))));
+    double phase = 0;  // of the fastest oscillation, or more: h^2 times the trace of M^-1 K bounds its square
+    if (model_->hasSprings()) {
+      findMobility(state);
+      phase = h * std::sqrt(stiffness_.dot(mobility_));
+    }
+    if (!onlyForcesAct(state, h) || !(phase < kMostPhase)) return stepWithGoals(state, h);
+    stepFreely(state, h,
+               std::max(1, static_cast<int>(std::ceil(std::max(turn / kSmallTurn, phase / kSmallPhase)))));
     return true;
   } catch (const Error&) {
     return false;  // the state is as it was, and the caller's own step tells what is wrong

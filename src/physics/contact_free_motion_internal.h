@@ -18,15 +18,28 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Limits become active within this distance, radians or metres, or within twice the motion of a step.
 inline constexpr double kLimitReach = 0.01;
 
-/// What bounds or resists the motion of one coordinate.
+/// What bounds, resists or pulls the motion of one coordinate.
 struct JointLaw {
   double lower = -kInfinity, upper = kInfinity;
   double damping = 0, friction = 0, maxVelocity = kInfinity;
+  double armature = 0, stiffness = 0;
 };
 
 /// The law of entry `coordinate` of a joint's v; balls have no limits.
 [[nodiscard]] JointLaw jointLaw(const Model& model, const Joint& joint, int coordinate,
                                 const PhysicsOptions& options);
+
+/// Where a coordinate is at the start of a step.
+struct JointPlace {
+  double q = 0, v = 0;
+  double stretch = 0;  ///< of its spring
+  double inertia = 0;  ///< that it meets, or less: kg m^2 or kg; matters for springs only
+};
+
+/// The impulse of a spring in a step of h seconds.
+[[nodiscard]] inline double springImpulse(const JointLaw& law, double stretch, double h) {
+  return -h * law.stiffness * stretch;
+}
 
 /// Wants a velocity of a coordinate to be `velocity`, with impulses within bounds. It yields by `softness`
 /// times the impulse.
@@ -39,8 +52,9 @@ struct JointGoal {
 enum JointPurpose { kMotor, kDamping, kFriction, kLowerLimit, kUpperLimit, kJointPurposes };
 using JointGoals = std::array<std::optional<JointGoal>, kJointPurposes>;
 
-/// What a coordinate at q that moves with v is to do in a step of h seconds.
-[[nodiscard]] JointGoals jointGoals(const JointLaw& law, const Motor& motor, double q, double v, double h);
+/// What a coordinate is to do in a step of h seconds, beside springImpulse(). Springs too stiff for the step
+/// are damped.
+[[nodiscard]] JointGoals jointGoals(const JointLaw& law, const Motor& motor, const JointPlace& at, double h);
 
 /// The velocities v that minimise (v - M^-1 p)^T M (v - M^-1 p) / 2 plus, for each coordinate, the convex and
 /// piecewise linear or quadratic cost whose slopes are the impulses of its goals: motors, friction and limits
@@ -86,8 +100,8 @@ class JointImpulses {
 };
 
 /// Moves a model of hinges that nothing touches by the equation of motion alone: by Stepper, which keeps its
-/// energy, where only forces act; and with the new v, as Bullet, where motors, friction, damping or limits
-/// do.
+/// energy, where only forces act, those of springs included; and with the new v, as Bullet, where motors,
+/// friction, damping, limits or springs too stiff for Stepper do.
 class ContactFreeMotion {
  public:
   ContactFreeMotion(const Model& model, const PhysicsOptions& options);
@@ -101,6 +115,7 @@ class ContactFreeMotion {
 
  private:
   [[nodiscard]] bool onlyForcesAct(const State& state, double h) const;
+  void findMobility(const State& state);
   void stepFreely(State& state, double h, int count);
   bool stepWithGoals(State& state, double h);
 
@@ -112,6 +127,8 @@ class ContactFreeMotion {
   std::optional<Stepper> stepper_{}, fastStepper_{};  // if it is able
   JointImpulses impulses_;
   Eigen::VectorXd u_, p_, v_;
+  Eigen::VectorXd stiffness_{}, rest_{};  // of springs
+  Eigen::VectorXd mobility_{};            // the diagonal of M^-1, of models with springs
   EquationOfMotion motion_{};
   DynamicsWorkspace workspace_{};
   State next_{};

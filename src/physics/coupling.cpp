@@ -6,6 +6,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <Eigen/Cholesky>
 
+#include "physics/armature_internal.h"
 #include "physics/coupling_internal.h"
 
 namespace rex::internal {
@@ -175,7 +176,7 @@ void Couplings::settle(Group& group, Aim aim) {
       const double* const own = held->coefficients(row, body);
       if (own == nullptr) continue;
       missing[i] -= std::inner_product(own, own + velocities, body.getVelocityVector(), 0.0);
-      body.calcAccelerationDeltasMultiDof(const_cast<double*>(own), answer.data(), scratchR_, scratchV_);
+      answerOf(body, own, answer.data(), scratchR_, scratchV_);
       for (Eigen::Index j = 0; j < count; ++j) {
         const auto& other = rows[static_cast<std::size_t>(j)];
         if (const double* const its = other.held->coefficients(other.row, body))

@@ -3,6 +3,7 @@
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include "physics/armature_internal.h"
 #include "physics/overlap_push_internal.h"
 
 namespace rex::internal {
@@ -59,7 +60,7 @@ void OverlapPush::measure(const btCollisionObject& object, const btVector3& poin
   if (btMultiBody* const tree = side.pushed->tree) {
     tree->fillContactJacobianMultiDof(collider->m_link, point, normal, side.J.data(), scratchR_, scratchV_,
                                       scratchM_);
-    tree->calcAccelerationDeltasMultiDof(side.J.data(), side.answer.data(), scratchR_, scratchV_);
+    answerOf(*tree, side.J.data(), side.answer.data(), scratchR_, scratchV_);
     return;
   }
   const btRigidBody& body = *side.pushed->body;

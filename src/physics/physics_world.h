@@ -57,12 +57,13 @@ struct RayHit {
 /// deterministic. It advances v first, then q with the new v, and errors are of first order in the step.
 /// Our own dynamics moves a robot that has only hinges and no pins while nothing can touch it: where only
 /// forces act, by Stepper's kBeeman, which keeps their energy; else by Bullet's rule, with motors, friction,
-/// damping and limits of joints solved exactly. ContactModel says what may collide; meshes collide as their
-/// convex hulls. A stack of 20 boxes stays up. Moving overlapping shapes apart adds no energy: it
-/// happens at 0.25 m/s at most, and they keep none of that speed. Mimic joints follow to rounding, and a
-/// motor moves all joints that share its coordinate. Points of pins stay together to first order in the step
-/// h: a relative acceleration c leaves a gap of c h / (400 /s). Gaps at the start close at 1 m/s at most; a
-/// loop that cannot be closed moves wildly. Only this module knows Bullet.
+/// damping and limits of joints solved exactly. Armatures and springs act in both; springs that a step is too
+/// long for are damped. ContactModel says what may collide; meshes collide as their convex hulls. A stack of
+/// 20 boxes stays up. Moving overlapping shapes apart adds no energy: it happens at 0.25 m/s at most, and
+/// they keep none of that speed. Mimic joints follow to rounding, and a motor moves all joints that share its
+/// coordinate. Points of pins stay together to first order in the step h: a relative acceleration c leaves a
+/// gap of c h / (400 /s). Gaps at the start close at 1 m/s at most; a loop that cannot be closed moves
+/// wildly. Only this module knows Bullet.
 class PhysicsWorld {
  public:
   /// Throws Error for what cannot be simulated, naming it: ball and free joints that mimic others, moving

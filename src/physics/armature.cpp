@@ -1,0 +1,119 @@
+#include <utility>
+
+#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
+
+#include "physics/armature_internal.h"
+#include "physics/coupling_internal.h"
+
+namespace rex::internal {
+namespace {
+
+using Velocities = Eigen::Map<Eigen::VectorXd>;
+
+Eigen::Map<const Eigen::VectorXd> velocitiesOf(const btMultiBody& body) {
+  return {body.getVelocityVector(), velocityCount(body)};
+}
+
+}  // namespace
+
+Armature::Armature(btMultiBody& body, int rows)
+    : body_(body),
+      Jt_(Eigen::MatrixXd::Zero(velocityCount(body), rows)),
+      G_(Jt_),
+      inertia_(Eigen::VectorXd::Zero(rows)),
+      drift_(inertia_),
+      llt_(rows) {
+  body.setUserPointer(this);
+}
+
+void Armature::measureBase(int row, const Eigen::Vector3d& angular, const Eigen::Vector3d& linear,
+                           double drift) {
+  Jt_.col(row).head<3>() = angular;
+  Jt_.col(row).segment<3>(3) = linear;
+  drift_[row] = drift;
+}
+
+void Armature::begin() {
+  before_ = velocitiesOf(body_);
+  isBegun_ = true;
+}
+
+void Armature::slowDown() {
+  if (!std::exchange(isBegun_, false)) return;
+  for (Eigen::Index i = 0; i < Jt_.cols(); ++i)
+    body_.calcAccelerationDeltasMultiDof(Jt_.col(i).data(), G_.col(i).data(), scratchR_, scratchV_);
+  Eigen::MatrixXd K = Jt_.transpose() * G_;
+  K.diagonal() += inertia_.cwiseInverse();
+  llt_.compute(K);
+  const Eigen::VectorXd faster = Jt_.transpose() * (velocitiesOf(body_) - before_) + drift_;
+  const Eigen::VectorXd change = -G_ * llt_.solve(faster);
+  body_.applyDeltaVeeMultiDof(change.data(), 1);
+}
+
+void Armature::correct(Eigen::Ref<Eigen::VectorXd> answer) const {
+  const Eigen::VectorXd taken = llt_.solve(Jt_.transpose() * answer);
+  answer.noalias() -= G_ * taken;
+}
+
+void answerOf(const btMultiBody& body, const btScalar* impulse, btScalar* answer,
+              btAlignedObjectArray<btScalar>& scratchR, btAlignedObjectArray<btVector3>& scratchV) {
+  body.calcAccelerationDeltasMultiDof(const_cast<btScalar*>(impulse), answer, scratchR, scratchV);
+  if (const Armature* const armature = Armature::of(body))
+    armature->correct(Velocities(answer, velocityCount(body)));
+}
+
+btScalar ArmatureSolver::solveGroupCacheFriendlySetup(btCollisionObject** bodies, int bodyCount,
+                                                      btPersistentManifold** manifolds, int manifoldCount,
+                                                      btTypedConstraint** constraints, int constraintCount,
+                                                      const btContactSolverInfo& info, btIDebugDraw* debug) {
+  bool isWanted = false;
+  for (int i = 0; i < m_tmpNumMultiBodyConstraints; ++i) {
+    Armature* const armature = Armature::of(*m_tmpMultiBodyConstraints[i]->getMultiBodyA());
+    if (armature == nullptr) continue;
+    armature->slowDown();
+    isWanted = true;
+  }
+  const btScalar residual = btMultiBodyConstraintSolver::solveGroupCacheFriendlySetup(
+      bodies, bodyCount, manifolds, manifoldCount, constraints, constraintCount, info, debug);
+  if (!isWanted) return residual;
+  for (btMultiBodyConstraintArray* const rows :
+       {&m_multiBodyNonContactConstraints, &m_multiBodyNormalContactConstraints,
+        &m_multiBodyFrictionContactConstraints, &m_multiBodyTorsionalFrictionContactConstraints,
+        &m_multiBodySpinningFrictionContactConstraints})
+    for (int i = 0; i < rows->size(); ++i) correct((*rows)[i]);
+  return residual;
+}
+
+// Bullet scales the target and the softness of a row by the inverse of its mobility, to which the softness is
+// already added.
+void ArmatureSolver::correct(btMultiBodySolverConstraint& row) {
+  double less = 0;
+  if (row.m_multiBodyA != nullptr)
+    less += correctSide(*row.m_multiBodyA, row.m_jacAindex, row.m_deltaVelAindex, row.m_appliedImpulse);
+  if (row.m_multiBodyB != nullptr)
+    less += correctSide(*row.m_multiBodyB, row.m_jacBindex, row.m_deltaVelBindex, row.m_appliedImpulse);
+  if (less == 0 || row.m_jacDiagABInv == 0) return;
+  const double scale = 1 / (1 - less * row.m_jacDiagABInv);
+  row.m_jacDiagABInv *= scale;
+  row.m_rhs *= scale;
+  row.m_cfm *= scale;
+}
+
+// Corrects the answer to a row, and what its impulse of the last step, from which the solver starts, has
+// changed already. Returns by how much the mobility is less.
+double ArmatureSolver::correctSide(const btMultiBody& body, int jacobian, int velocities, double impulse) {
+  const Armature* const armature = Armature::of(body);
+  if (armature == nullptr) return 0;
+  const int count = velocityCount(body);
+  Velocities answer(&m_data.m_deltaVelocitiesUnitImpulse[jacobian], count);
+  change_ = -answer;
+  armature->correct(answer);
+  change_ += answer;
+  if (impulse != 0) {
+    const_cast<btMultiBody&>(body).applyDeltaVeeMultiDof2(change_.data(), impulse);
+    applyDeltaVee(change_.data(), impulse, velocities, count);
+  }
+  return -change_.dot(Velocities(&m_data.m_jacobians[jacobian], count));
+}
+
+}  // namespace rex::internal
