@@ -59,38 +59,44 @@ double slowing(const Styled& styled, const char* attribute) {
   return styled.giver(attribute).notNegative(attribute, 0);
 }
 
-// The inertia of motors and springs are left out.
 void readDrive(const Styled& styled, JointSpec& joint) {
   joint.damping = slowing(styled, "damping");
   joint.friction = slowing(styled, "frictionloss");
-  const auto leaveOut = [&](const char* attribute) {
-    const Tag& giver = styled.giver(attribute);
-    if (giver.has(attribute)) giver.leaveOut(attribute, Difference::kMotion);
-  };
-  if (slowing(styled, "armature") != 0) leaveOut("armature");
-  if (slowing(styled, "stiffness") == 0) return;
-  leaveOut("stiffness");
-  if (styled.number("springref", 0) != 0) leaveOut("springref");
+  joint.armature = slowing(styled, "armature");
+  joint.stiffness = slowing(styled, "stiffness");
+}
+
+// MuJoCo does not ask where the spring of a ball rests: at home.
+void readSpring(const Styled& styled, const Compiler& compiler, BodyJoint& one) {
+  if (styled.has("springdamper")) {
+    const Eigen::Vector2d given = styled.giver("springdamper").numbers("springdamper", 2);
+    if (given.minCoeff() > 0) one.springDamper = given;
+  }
+  if (positionCount(one.spec.type) != 1) return;
+  const double rest = coordinate(one.spec, styled.number("springref", 0), compiler);
+  if (rest != 0) one.spec.springReference = Eigen::VectorXd::Constant(1, rest);
 }
 
 }  // namespace
 
-JointSpec readBodyJoint(const Styled& styled, const Compiler& compiler) {
+BodyJoint readBodyJoint(const Styled& styled, const Compiler& compiler) {
   const Tag& tag = styled.own();
-  JointSpec joint;
+  BodyJoint one;
+  JointSpec& joint = one.spec;
   if (tag.has("name")) joint.name = tag.nameIn("name");
   joint.where = tag.where();
   const Tag& typed = styled.giver("type");
   joint.type = kTypesOfMjcf[typed.has("type") ? choice(typed, "type", kJointWords) : 0];
   readDrive(styled, joint);
+  readSpring(styled, compiler, one);
   readRange(styled, compiler, joint);
-  if (joint.type == JointType::kFree) return joint;
+  if (joint.type == JointType::kFree) return one;
   const Tag& placed = styled.giver("pos");
   const Pose X_BF{Eigen::Matrix3d::Identity(),
                   placed.has("pos") ? Eigen::Vector3d(placed.numbers("pos", 3)) : Eigen::Vector3d::Zero()};
   joint.X_PF = X_BF;
   joint.X_MC = X_BF.inverse();
-  if (joint.type == JointType::kBall) return joint;
+  if (joint.type == JointType::kBall) return one;
   joint.axis = jointAxis(styled);
   const double ref = coordinate(joint, styled.number("ref", 0), compiler);
   if (ref != 0) {
@@ -98,7 +104,7 @@ JointSpec readBodyJoint(const Styled& styled, const Compiler& compiler) {
     joint.X_MC = jointMotion(joint.type, joint.axis, 0, &ref).inverse() * joint.X_MC;
   }
   readForceRange(styled, compiler, joint);
-  return joint;
+  return one;
 }
 
 namespace {

@@ -129,7 +129,12 @@ struct Geom {
 
 /// A <joint> of a body: X_PF and X_MC are as if the parent's frame were that of the body where the joint is
 /// at `ref`. A missing name is given later.
-[[nodiscard]] JointSpec readBodyJoint(const Styled& tag, const Compiler& compiler);
+struct BodyJoint {
+  JointSpec spec{};
+  /// Time (seconds) and ratio, both > 0, which give stiffness and damping when all masses are there.
+  std::optional<Eigen::Vector2d> springDamper{};
+};
+[[nodiscard]] BodyJoint readBodyJoint(const Styled& tag, const Compiler& compiler);
 
 /// A body of the file; its mass follows when all meshes are there.
 struct BodyInFile {
@@ -159,6 +164,9 @@ struct BodyTree {
   std::unordered_map<std::string, std::size_t> jointOfName{}, bodyOfName{};
   std::unordered_map<std::string, GeomInTree> geomOfName{};
   std::vector<FitInTree> fits{};
+  /// BodyJoint::springDamper of joints by their names, and what <flag> leaves of those.
+  std::vector<std::pair<std::string, Eigen::Vector2d>> springDampers{};
+  bool hasSprings = true, hasDampers = true;
   /// The joints on each <fixed> tendon, with their coefficients.
   std::unordered_map<std::string, std::vector<std::pair<std::string, double>>> tendons{};
   /// What follows the names that stand in a <replicate>, once for each replica.
@@ -200,6 +208,10 @@ void fitGeoms(BodyTree& tree, const Compiler& compiler, Reading& reading);
 
 /// Gives all bodies their masses.
 void setMasses(BodyTree& tree, const Compiler& compiler, Reading& reading);
+
+/// Makes springs and dampers of the attributes `springdamper`, by the inertia that each joint meets where all
+/// start, as MuJoCo does. To be called when the bodies have their masses.
+void setSprings(BodyTree& tree, Reading& reading);
 
 /// <tendon>: what joints hang on which.
 void readTendons(const std::vector<Tag>& sections, Files& files, const Defaults& defaults,

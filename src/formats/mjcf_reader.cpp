@@ -207,7 +207,8 @@ std::vector<Tag> named(const std::vector<Tag>& sections, const char* name) {
 
 // What the flags of <option> leave of a model.
 struct Switches {
-  bool equality = true, friction = true, limits = true, contacts = true, dampers = true;
+  bool equality = true, friction = true, limits = true, contacts = true;
+  bool dampers = true, springs = true;
 };
 
 void readFlags(const Tag& tag, Switches& switches) {
@@ -221,6 +222,7 @@ void readFlags(const Tag& tag, Switches& switches) {
   switches.limits = switches.limits && constrains && !isOff("limit");
   switches.contacts = switches.contacts && constrains && !isOff("contact");
   switches.dampers = switches.dampers && resists && !isOff("damper");
+  switches.springs = switches.springs && resists && !isOff("spring");
   for (const char* name : {"gravity", "clampctrl", "actuation"})
     if (isOff(name)) tag.leaveOut(name, Difference::kMotion);
   if (isOff("filterparent")) tag.leaveOut("filterparent", Difference::kContact);
@@ -244,10 +246,13 @@ void apply(const Switches& switches, BodyTree& tree, Notes& notes) {
     JointSpec& joint = read.spec;
     if (!switches.friction) joint.friction = 0;
     if (!switches.dampers) joint.damping = 0;
+    if (!switches.springs) joint.stiffness = 0;
     if (switches.limits) continue;
     joint.lower.resize(0);
     joint.upper.resize(0);
   }
+  tree.hasSprings = switches.springs;
+  tree.hasDampers = switches.dampers;
   if (switches.contacts) return;
   notes.remark({tree.spec.name}, "<flag> disables contact: nothing touches");
   for (FitInTree& fit : tree.fits) fit.fit.contact = false;
@@ -328,6 +333,7 @@ SceneFile readModelFile(std::string_view text, const std::string& name, const As
     tree.spec = std::move(scene.spec);
     fitGeoms(tree, compiler, files.main());
     setMasses(tree, compiler, files.main());
+    setSprings(tree, files.main());
     scene.spec = std::move(tree.spec);
   } catch (const Error&) {
     if (options.notesOfFailure) {

@@ -63,9 +63,8 @@ constexpr Row kRows[] = {
     {"inertial", "@pose mass diaginertia fullinertia"},
     {"joint",
      "name class type pos axis range limited ref damping frictionloss actuatorfrcrange actuatorfrclimited "
-     "armature stiffness springref",
-     "group user actuatorgravcomp", "", "",
-     "springdamper margin solreflimit solimplimit solreffriction solimpfriction"},
+     "armature stiffness springref springdamper",
+     "group user actuatorgravcomp", "", "", "margin solreflimit solimplimit solreffriction solimpfriction"},
     {"freejoint", "name align", "group"},
     {"geom",
      "name class type @pose size fromto mass density group contype conaffinity rgba material mesh hfield "

@@ -16,7 +16,7 @@ struct BodyNode {
   Tag tag;
   Pose X_PB{};
   std::string name{};  // empty: none
-  std::vector<JointSpec> joints{};
+  std::vector<BodyJoint> joints{};
   std::vector<Geom> geoms{};
   std::optional<MassProperties> given{};
   std::vector<BodyNode> children{};
@@ -172,14 +172,15 @@ class NodeReader {
   void readMotion(const Tag& given, const Pose& X_BF, const DefaultClass& style, BodyNode& body) {
     refuseOnWorld(given, body);
     const Tag tag = given.has("name") ? given.of(fmt::format("joint '{}'", given.nameIn("name"))) : given;
-    JointSpec joint;
+    BodyJoint one;
+    JointSpec& joint = one.spec;
     if (tag.name() == "freejoint") {
       tag.expect(knownOf("freejoint"));
       if (tag.has("align") && tag.text("align") == "true") tag.leaveOut("align", Difference::kMotion);
       joint.type = JointType::kFree;
     } else {
       tag.expect(knownOf("joint"));
-      joint = readBodyJoint(Styled(tag, defaults_.named(tag, "class", style), Kind::kJoint), compiler_);
+      one = readBodyJoint(Styled(tag, defaults_.named(tag, "class", style), Kind::kJoint), compiler_);
     }
     joint.where = tag.where();
     if (joint.type != JointType::kFree) {
@@ -190,7 +191,7 @@ class NodeReader {
       joint.name = nameOf(tag);
       requireNew(tag, "joint", joint.name, joints_);
     }
-    body.joints.push_back(std::move(joint));
+    body.joints.push_back(std::move(one));
   }
 
   static void refuseOnWorld(const Tag& tag, const BodyNode& body) {
@@ -268,35 +269,36 @@ class TreeMaker {
   // Adds the body with its joints, and a massless body between consecutive ones.
   void hang(BodyNode& node, const std::string& parent) {
     requireFree(node, parent);
-    std::vector<JointSpec> joints = node.joints;
+    std::vector<BodyJoint> joints = node.joints;
     if (joints.empty() && parent == kWorldName) return addBody(node.name, node, node.X_PB);
-    if (joints.empty()) joints.emplace_back().type = JointType::kRigid;
+    if (joints.empty()) joints.emplace_back().spec.type = JointType::kRigid;
     std::string above = parent;
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      JointSpec& joint = joints[i];
+      JointSpec& joint = joints[i].spec;
       nameJoint(joint, above, node.name);
       const bool isLast = i + 1 == joints.size();
       joint.child = isLast ? node.name : bodyNames_.take(fmt::format("{}_{}", node.name, joint.name));
       joint.parent = std::exchange(above, joint.child);
       if (joint.type == JointType::kFree) {
-        joint.q0 = jointCoordinates(JointType::kFree, joint.axis, node.X_PB);
+        joint.q0 = joint.springReference = jointCoordinates(JointType::kFree, joint.axis, node.X_PB);
       } else if (i == 0) {
         joint.X_PF = node.X_PB * joint.X_PF;
       }
       if (joint.type == JointType::kRigid) joint.where = node.tag.where();
       addBody(joint.child, node, {});
+      if (joints[i].springDamper) tree_.springDampers.emplace_back(joint.name, *joints[i].springDamper);
       addJoint(node, std::move(joint));
     }
   }
 
   static void requireFree(const BodyNode& node, const std::string& parent) {
-    for (const JointSpec& joint : node.joints) {
-      if (joint.type != JointType::kFree) continue;
+    for (const BodyJoint& one : node.joints) {
+      if (one.spec.type != JointType::kFree) continue;
       if (parent != kWorldName)
-        node.tag.fail(joint.where, "a free joint", fmt::format("a body on '{}'", parent),
+        node.tag.fail(one.spec.where, "a free joint", fmt::format("a body on '{}'", parent),
                       "a body on the world");
       if (node.joints.size() > 1)
-        node.tag.fail(joint.where, "a free joint", fmt::format("{} joints", node.joints.size()),
+        node.tag.fail(one.spec.where, "a free joint", fmt::format("{} joints", node.joints.size()),
                       "no other joint");
     }
   }

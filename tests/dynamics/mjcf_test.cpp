@@ -12,7 +12,9 @@
 #include "base/process.h"
 #include "base/rng.h"
 #include "bench/mujoco_model.h"
+#include "dynamics/energy.h"
 #include "dynamics/equations_of_motion.h"
+#include "dynamics/stepper.h"
 #include "formats/mjcf_reader.h"
 #include "kinematics/forward_kinematics.h"
 #include "support/block_surface.h"
@@ -35,7 +37,9 @@ class Peer {
  public:
   Peer(bench::MujocoModel theirs, const SceneSpec& spec, const Model& ours)
       : model_(std::move(theirs)), data_(mj_makeData(model_.get())), ours_(ours) {
-    model_->opt.disableflags |= mjDSBL_CONSTRAINT | mjDSBL_PASSIVE;
+    model_->opt.disableflags |= mjDSBL_CONSTRAINT;
+    model_->opt.enableflags |= mjENBL_ENERGY;
+    model_->opt.density = model_->opt.viscosity = 0;
     for (const JointSpec& joint : spec.joints)
       if (joint.type != JointType::kRigid) joints_.push_back(jointOf(joint.name));
     EXPECT_EQ(static_cast<int>(joints_.size()), model_->njnt);
@@ -57,7 +61,9 @@ class Peer {
     return q;
   }
 
-  void set(const VectorXd& q) {
+  void set(const VectorXd& q) { set(q, VectorXd::Zero(ours_.nv())); }
+  void set(const VectorXd& q, const VectorXd& v) {
+    Eigen::Map<VectorXd>(data_->qvel, model_->nv) = P_ * v;
     for (int k = 0; k < model_->njnt; ++k) {
       const Joint& joint = *joints_[static_cast<std::size_t>(k)];
       double* at = data_->qpos + model_->jnt_qposadr[k];
@@ -67,13 +73,17 @@ class Peer {
     mj_forward(model_.get(), data_.get());
   }
 
-  // Without what motors add to the inertia of joints.
   Eigen::MatrixXd massMatrix() const {
     Eigen::MatrixXd M(model_->nv, model_->nv);
     mj_fullM(model_.get(), M.data(), data_->qM);
-    M.diagonal() -= Eigen::Map<const VectorXd>(model_->dof_armature, model_->nv);
     return P_.transpose() * M * P_;
   }
+  // Of springs and dampers.
+  VectorXd passiveForces() const {
+    return P_.transpose() * Eigen::Map<const VectorXd>(data_->qfrc_passive, model_->nv);
+  }
+  double potentialEnergy() const { return data_->energy[0]; }
+  double kineticEnergy() const { return data_->energy[1]; }
 
   int bodies() const { return model_->nbody; }
   std::string name(int body) const {
@@ -109,7 +119,11 @@ VectorXd randomPositions(Rng& rng, const Model& model) {
   return q;
 }
 
-void expectSame(bench::MujocoModel loaded, const SceneSpec& spec, double tolerance = 1e-9) {
+void expectNear(double ours, double theirs, double tolerance) {
+  EXPECT_NEAR(ours, theirs, tolerance * std::max(1., std::abs(theirs)));
+}
+
+void expectSame(bench::MujocoModel loaded, const SceneSpec& spec, double tolerance = 1e-9, int postures = 5) {
   const Model model = compile(spec);
   Peer peer(std::move(loaded), spec, model);
   EXPECT_LT((model.initialPositions() - peer.start()).norm(), 1e-12);
@@ -117,9 +131,10 @@ void expectSame(bench::MujocoModel loaded, const SceneSpec& spec, double toleran
     EXPECT_NEAR(model[model.body(peer.name(body))].mass, peer.mass(body), tolerance * peer.mass(body))
         << peer.name(body);
   Rng rng(83);
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < postures; ++i) {
     const VectorXd q = i == 0 ? model.initialPositions() : randomPositions(rng, model);
-    peer.set(q);
+    const VectorXd v = rng.normalVector(model.nv());
+    peer.set(q, v);
     const BodyPoses poses = forwardKinematics(model, q);
     for (int body = 1; body < peer.bodies(); ++body)
       EXPECT_TRUE(isApprox(poses[model.body(peer.name(body))], peer.X_WB(body), 1e-9)) << peer.name(body);
@@ -127,6 +142,11 @@ void expectSame(bench::MujocoModel loaded, const SceneSpec& spec, double toleran
     const Eigen::MatrixXd theirs = peer.massMatrix();
     EXPECT_LE((massMatrix(model, q) - theirs).cwiseAbs().maxCoeff(),
               tolerance * theirs.cwiseAbs().maxCoeff());
+    // At such speeds friction is none.
+    const VectorXd forces = jointForces(model, q, v, {.friction = true, .frictionSpeed = 1e300});
+    EXPECT_LE((forces - peer.passiveForces()).norm(), tolerance * peer.passiveForces().norm());
+    expectNear(energy(model, q, v).potential, peer.potentialEnergy(), tolerance);
+    expectNear(energy(model, q, v).kinetic, peer.kineticEnergy(), tolerance);
   }
 }
 
@@ -331,6 +351,34 @@ TEST(MjcfPeers, AgreeOnFollowers) {
           isApprox(forwardKinematics(model, one)[model.body(peer.name(body))], peer.X_WB(body), 1e-12));
     EXPECT_NEAR(massMatrix(model, one)(0, 0), peer.massMatrix()(0, 0), 1e-9);
   }
+}
+
+// Each alone and in pairs, on joints of all kinds, two of which follow others.
+TEST(MjcfPeers, AgreeOnArmaturesAndSprings) {
+  const std::vector<std::string> attributes = {"armature='.7'", "stiffness='3'", "springref='.4'",
+                                               "springdamper='.5 .8'", "damping='.2'"};
+  for (std::size_t i = 0; i < attributes.size(); ++i)
+    for (std::size_t k = i; k < attributes.size(); ++k) {
+      const std::string all = " " + attributes[i] + (k == i ? "" : " " + attributes[k]) + "/>";
+      const std::string xml = R"(<mujoco><worldbody>
+        <body name="a" pos="1 2 3" euler="10 20 30"><joint name="f" type="free")" +
+                              all +
+                              R"(<geom size=".2" pos=".1 0 0"/>
+          <body name="b" pos=".3 0 .1"><joint name="h" axis="1 2 3" ref="25")" +
+                              all + R"(<geom type="box" size=".1 .2 .3"/>
+            <body name="c" pos="0 .2 .1"><joint name="s" type="slide" axis="0 1 1" ref=".3")" +
+                              all + R"(<geom type="capsule" size=".05 .2" zaxis="1 -1 .5"/>
+              <body name="d" pos="0 0 .4" zaxis="0 -1 0"><joint name="q" type="ball" pos=".1 .2 .3")" +
+                              all + R"(<geom size=".1"/></body></body></body></body>
+        <body name="e"><joint name="k" axis="0 1 0" ref="-10")" +
+                              all + R"(<geom type="box" size=".3 .1 .2" pos="1 0 0"/>
+          <body name="g"><joint name="l")" +
+                              all + R"(<geom size=".3" pos="0 .5 0"/></body></body></worldbody>
+        <equality><joint joint1="k" joint2="h" polycoef=".2 -1.5 0 0 0"/><joint joint1="l" joint2="s"/></equality>
+        </mujoco>)";
+      SCOPED_TRACE(all);
+      expectSame(bench::loadMujoco(xml), parseMjcf(xml, "m.xml").spec, 1e-9, 20);
+    }
 }
 
 TEST(MjcfPeers, AgreeOnMeshes) {

@@ -13,6 +13,7 @@
 #include "geometry/rotation.h"
 #include "kinematics/forward_kinematics.h"
 #include "scene/model.h"
+#include "scene/scene_edit.h"
 #include "support/block_surface.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
@@ -893,12 +894,15 @@ TEST(MjcfReader, CountsReplicasWithZerosInFront) {
 
 TEST(MjcfReader, LeavesOutForcesThatFlagsDisable) {
   const auto with = [](const std::string& flags) {
-    return world("<body name='a'><joint damping='4' frictionloss='5' range='-1 1'/></body>",
+    return world("<body name='a'><joint damping='4' frictionloss='5' stiffness='6' range='-1 1'/></body>",
                  "<option><flag " + flags + "/></option>")
         .spec.joints.at(0);
   };
   EXPECT_EQ(with("damper='disable'").damping, 0);
   EXPECT_EQ(with("passive='disable'").damping, 0);
+  EXPECT_EQ(with("damper='disable'").stiffness, 6);
+  EXPECT_EQ(with("spring='disable'").stiffness, 0);
+  EXPECT_EQ(with("passive='disable'").stiffness, 0);
   EXPECT_EQ(with("frictionloss='disable'").friction, 0);
   EXPECT_EQ(with("limit='disable'").lower.size(), 0);
   EXPECT_EQ(with("constraint='disable'").friction, 0);
@@ -918,6 +922,46 @@ TEST(MjcfReader, LeavesOutWhatFlagsDisable) {
   EXPECT_EQ(with("equality").joints[0].mimic, "");
   EXPECT_TRUE(with("equality").bodies[0].shapes[0].contact);
   EXPECT_FALSE(with("contact").bodies[0].shapes[0].contact);
+}
+
+TEST(MjcfReader, ReadsArmaturesAndSprings) {
+  const SceneSpec spec = world(
+                             "<body name='a' pos='1 2 3'><joint type='free' stiffness='7' armature='2'/>"
+                             "<body name='b'><joint armature='.1' stiffness='3' springref='90'/></body>"
+                             "<body name='c'><joint type='slide' springref='.4' stiffness='2'/></body>"
+                             "<body name='d'><joint type='ball' springref='1' stiffness='2'/></body></body>")
+                             .spec;
+  const Model model = compile(spec);
+  const std::vector<Joint>& joints = model.joints();
+  EXPECT_EQ(joints[0].springReference, model.initialPositions().head<7>());
+  EXPECT_EQ(compile(atPositions(spec, model.initialPositions() * 2)).joints()[0].springReference,
+            joints[0].springReference);
+  EXPECT_EQ(joints[0].armature, 2);
+  EXPECT_EQ(joints[1].armature, .1);
+  EXPECT_EQ(joints[1].stiffness, 3);
+  EXPECT_NEAR(joints[1].springReference[0], pi / 2, 1e-15);
+  EXPECT_EQ(joints[2].springReference[0], .4);
+  EXPECT_EQ(joints[3].springReference, Eigen::Vector4d(1, 0, 0, 0));
+}
+
+// A rod of mass 3 about its end, with armature: 3 * 4 / 3 + 1 kg m^2.
+TEST(MjcfReader, MakesSpringsOfTheirTimeAndDampingRatio) {
+  const auto with = [](const std::string& joint, const std::string& flags = "") {
+    return world(
+               "<body name='a'><inertial pos='1 0 0' mass='3' diaginertia='1 1 1'/><joint armature='1' "
+               "axis='0 1 0' springdamper='" +
+                   joint + "' stiffness='8' damping='9'/></body>",
+               "<option><flag " + flags + "/></option>")
+        .spec.joints.at(0);
+  };
+  EXPECT_NEAR(with(".5 2").stiffness, 5 / (.25 * 4), 1e-12);
+  EXPECT_NEAR(with(".5 2").damping, 2 * 5 / .5, 1e-12);
+  EXPECT_EQ(with("0 2").stiffness, 8);
+  EXPECT_EQ(with(".5 -1").damping, 9);
+  EXPECT_EQ(with(".5 2", "spring='disable'").stiffness, 0);
+  EXPECT_NEAR(with(".5 2", "spring='disable'").damping, 20, 1e-12);
+  EXPECT_EQ(with(".5 2", "damper='disable'").damping, 0);
+  EXPECT_EQ(with(".5 2", "passive='disable'").stiffness, 0);
 }
 
 // c q + d p keeps its length, or one follows the other.
