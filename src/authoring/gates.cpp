@@ -458,7 +458,8 @@ std::vector<std::string> partsWithoutMistake(const GateContext& context,
   return complaints;
 }
 
-// The gates of the variants prove that the picture exists and that the messages are those of the file.
+// The gates of the variants prove that the picture exists and that the messages are those of the file, in
+// which got and wanted must differ.
 GateResult mistakesAreShown(const GateContext& context) {
   const std::vector<submission::WrongVariant> variants = exerciseVariants(context.exercise);
   if (const auto untried = partsWithoutMistake(context, variants); !untried.empty()) return judge(untried);
@@ -466,9 +467,12 @@ GateResult mistakesAreShown(const GateContext& context) {
     return failed(
         fmt::format("seen.txt is missing; run: REX_UPDATE_GOLDEN=1 scripts/rex dev check {} --gate wrong",
                     context.exercise.name));
-  for (const submission::WrongVariant& variant : variants)
-    if (!variant.shownBy.empty()) return kPassed;
-  return failed("no wrong variant names a check that shows its mistake: '// shown by: CHECK, ...'");
+  std::vector<std::string> complaints =
+      messagesThatExplainNothing(readSeenMessages(seenMessagesFile(context.exercise.folder)));
+  if (std::all_of(variants.begin(), variants.end(), [](const auto& one) { return one.shownBy.empty(); }))
+    complaints.emplace_back(
+        "no wrong variant names a check that shows its mistake: '// shown by: CHECK, ...'");
+  return judge(complaints);
 }
 
 // No code that students are shown does a part of their work.

@@ -80,4 +80,14 @@ std::vector<std::string> changedMessages(const SeenMessages& now, const SeenMess
   return changes;
 }
 
+std::vector<std::string> messagesThatExplainNothing(const SeenMessages& messages) {
+  // As Check prints them: a value along a motion has its place, and what is wanted may be a limit.
+  static const std::regex alike(R"(\bgot (.+?)(?: at [^,]*)?, wanted (?:at most |at least )?\1(?:,| \())");
+  std::vector<std::string> complaints;
+  for (const auto& [name, message] : messages)
+    if (std::regex_search(message, alike))
+      complaints.push_back(fmt::format("{}: got and wanted are printed alike: {}", name, message));
+  return complaints;
+}
+
 }  // namespace rex::authoring

@@ -28,4 +28,8 @@ void writeSeenMessages(const SeenMessages& messages, const std::filesystem::path
 /// round in their own way, or that only one of both has. One line each; empty if there are none.
 [[nodiscard]] std::vector<std::string> changedMessages(const SeenMessages& now, const SeenMessages& stored);
 
+/// The messages in which got and wanted are printed alike, which explain nothing: "got 0.5 m, wanted at most
+/// 0.5 m". One line each; empty if there are none.
+[[nodiscard]] std::vector<std::string> messagesThatExplainNothing(const SeenMessages& messages);
+
 }  // namespace rex::authoring

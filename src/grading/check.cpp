@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -24,10 +25,20 @@ constexpr double kTurn = 2 * std::numbers::pi, kNoPeriod = std::numeric_limits<d
 /// Ends a check function or a case. Not a std::exception, so that no check function catches it by accident.
 struct RequirementFailed {};
 
+constexpr int kDigits = 6;
+
 // The sign of a NaN depends on the machine.
-std::string number(double value) {
+std::string number(double value, int digits = kDigits) {
   if (std::isnan(value)) return "nan";
-  return fmt::format("{:.6g}", value == 0 ? 0.0 : value);  // not -0
+  return fmt::format("{:.{}g}", value == 0 ? 0.0 : value, digits);  // not -0
+}
+
+// How many digits tell a value from what was wanted: "got 0.5, wanted 0.5" would explain nothing.
+int digitsToTell(double got, double wanted) {
+  if (got == wanted) return kDigits;
+  for (const int digits : {kDigits, 9, 12, 15})
+    if (number(got, digits) != number(wanted, digits)) return digits;
+  return std::numeric_limits<double>::max_digits10;
 }
 
 std::string withUnit(std::string text, std::string_view unit) {
@@ -35,18 +46,18 @@ std::string withUnit(std::string text, std::string_view unit) {
   return text;
 }
 
-std::string atMostText(double limit, std::string_view unit) {
-  return "at most " + withUnit(number(limit), unit);
+std::string atMostText(double limit, std::string_view unit, int digits = kDigits) {
+  return "at most " + withUnit(number(limit, digits), unit);
 }
-std::string atLeastText(double limit, std::string_view unit) {
-  return "at least " + withUnit(number(limit), unit);
+std::string atLeastText(double limit, std::string_view unit, int digits = kDigits) {
+  return "at least " + withUnit(number(limit, digits), unit);
 }
 
 std::string shapeText(Eigen::Index rows, Eigen::Index cols) { return fmt::format("{} x {}", rows, cols); }
 
-std::vector<std::string> numbers(const Eigen::VectorXd& values) {
+std::vector<std::string> numbers(const Eigen::VectorXd& values, int digits = kDigits) {
   std::vector<std::string> texts;
-  for (const double value : values) texts.push_back(number(value));
+  for (const double value : values) texts.push_back(number(value, digits));
   return texts;
 }
 
@@ -56,12 +67,19 @@ Eigen::Index largestEntry(const Eigen::VectorXd& values) {
   return row;
 }
 
+// For the first value along a motion that breaks a limit.
+int digitsToTell(const Signal& got, const std::vector<Eigen::VectorXd>& beyond, double limit) {
+  const std::optional<std::size_t> first = findBreaches(beyond).first;
+  return first ? digitsToTell(got.values[*first][largestEntry(beyond[*first])], limit) : kDigits;
+}
+
 /// A short vector in full; only the relevant entry of anything larger.
-std::string valueText(const MatrixArg& value, Eigen::Index row, Eigen::Index col) {
+std::string valueText(const MatrixArg& value, Eigen::Index row, Eigen::Index col, int digits = kDigits) {
   constexpr Eigen::Index kShort = 6;
   if (value.cols() != 1 || value.rows() > kShort)
-    return fmt::format("{} at ({}, {})", number(value(row, col)), row, col);
-  return value.rows() == 1 ? number(value(0, 0)) : fmt::format("({})", join(numbers(value), ", "));
+    return fmt::format("{} at ({}, {})", number(value(row, col), digits), row, col);
+  return value.rows() == 1 ? number(value(0, 0), digits)
+                           : fmt::format("({})", join(numbers(value, digits), ", "));
 }
 
 // The rows of a matrix as "[1, 2; 3, 4]"; its size if that would be long.
@@ -225,9 +243,10 @@ void Check::near(std::string_view property, const MatrixArg& got, const MatrixAr
   std::optional<Plot> plot;
   if (std::max(got.rows(), got.cols()) >= kManyNumbers)
     plot = Plot{.figure = comparison(std::string(property), got, wanted)};
+  const int digits = digitsToTell(got(row, col), wanted(row, col));
   fail({.property = std::string(property),
-        .got = withUnit(valueText(got, row, col), unit),
-        .wanted = withUnit(valueText(wanted, row, col), unit),
+        .got = withUnit(valueText(got, row, col, digits), unit),
+        .wanted = withUnit(valueText(wanted, row, col, digits), unit),
         .tolerance = tolerance > 0 ? withUnit(number(tolerance), unit) : "",
         .deviation = "off by " + withUnit(number(error), unit),
         .question = questionAbout(got, wanted, tolerance, unit, kNoPeriod),
@@ -242,9 +261,10 @@ void Check::atMost(std::string_view property, double got, double limit, std::str
   const double excess = excessOver(limit, got - limit);
   measure(property, excess, withUnit(number(got), unit), atMostText(limit, unit));
   if (state(got <= limit)) return;
+  const int digits = digitsToTell(got, limit);
   fail({.property = std::string(property),
-        .got = withUnit(number(got), unit),
-        .wanted = atMostText(limit, unit),
+        .got = withUnit(number(got, digits), unit),
+        .wanted = atMostText(limit, unit, digits),
         .excess = excess});
 }
 
@@ -254,9 +274,10 @@ void Check::atLeast(std::string_view property, double got, double limit, std::st
   const double excess = excessOver(limit, limit - got);
   measure(property, excess, withUnit(number(got), unit), atLeastText(limit, unit));
   if (state(got >= limit)) return;
+  const int digits = digitsToTell(got, limit);
   fail({.property = std::string(property),
-        .got = withUnit(number(got), unit),
-        .wanted = atLeastText(limit, unit),
+        .got = withUnit(number(got, digits), unit),
+        .wanted = atLeastText(limit, unit, digits),
         .excess = excess});
 }
 
@@ -271,9 +292,10 @@ void Check::nearAngle(std::string_view property, double got, double wanted, doub
   const double excess = excessOver(tolerance, error - tolerance);
   measure(property, excess, "off by " + withUnit(number(error), "rad"), atMostText(tolerance, "rad"));
   if (state(error <= tolerance)) return;
+  const int digits = digitsToTell(got, wanted);
   fail({.property = std::string(property),
-        .got = withUnit(number(got), "rad"),
-        .wanted = withUnit(number(wanted), "rad"),
+        .got = withUnit(number(got, digits), "rad"),
+        .wanted = withUnit(number(wanted, digits), "rad"),
         .tolerance = withUnit(number(tolerance), "rad"),
         .deviation = "off by " + withUnit(number(error), "rad"),
         .question = questionAbout(gotEntry, wantedEntry, tolerance, "rad", kTurn),
@@ -284,9 +306,12 @@ void Check::along(std::string_view property, const Signal& got, const Rule& rule
   constexpr double kLeast = 1e-9;  // the length of a motion that is one moment
   const Breaches breaches = findBreaches(rule.beyond);
   const auto place = [&](std::size_t i) { return " at " + placeText(got, i); };
-  const auto value = [&](std::size_t i) {
-    return withUnit(valueText(got.values[i], largestEntry(rule.beyond[i]), 0), unit);
+  const auto text = [&](const Eigen::VectorXd& value, std::size_t i) {
+    const Eigen::Index entry = largestEntry(rule.beyond[i]);
+    const double wanted = rule.wanted.empty() ? rule.limits.front().at : rule.wanted[i][entry];
+    return withUnit(valueText(value, entry, 0, digitsToTell(got.values[i][entry], wanted)), unit);
   };
+  const auto value = [&](std::size_t i) { return text(got.values[i], i); };
   const auto off = [&](std::size_t i) {
     const double beyond = rule.beyond[i].maxCoeff();
     return rule.wanted.empty() ? value(i) : withUnit(number(beyond + rule.scale), unit);
@@ -303,7 +328,7 @@ void Check::along(std::string_view property, const Signal& got, const Rule& rule
   } else if (rule.wanted.empty()) {
     shortfall.wanted = rule.limit;
   } else {
-    shortfall.wanted = withUnit(valueText(rule.wanted[first], largestEntry(rule.beyond[first]), 0), unit);
+    shortfall.wanted = text(rule.wanted[first], first);
     shortfall.tolerance = withUnit(number(rule.scale), unit);
     shortfall.deviation = "off by " + off(first);
   }
@@ -344,20 +369,18 @@ void Check::atMostAlong(std::string_view property, const Signal& got, double lim
   requireSignal(got);
   requireSound(std::isfinite(limit), info_, "wants a value that is not finite");
   tellAllowance(property, limit);
-  Rule rule{.limit = atMostText(limit, unit),
-            .scale = limit,
-            .limits = {{.at = limit, .label = "wanted: at most"}}};
+  Rule rule{.scale = limit, .limits = {{.at = limit, .label = "wanted: at most"}}};
   for (const Eigen::VectorXd& value : got.values) rule.beyond.emplace_back(value.array() - limit);
+  rule.limit = atMostText(limit, unit, digitsToTell(got, rule.beyond, limit));
   along(property, got, rule, unit);
 }
 
 void Check::atLeastAlong(std::string_view property, const Signal& got, double limit, std::string_view unit) {
   requireSignal(got);
   requireSound(std::isfinite(limit), info_, "wants a value that is not finite");
-  Rule rule{.limit = atLeastText(limit, unit),
-            .scale = limit,
-            .limits = {{.at = limit, .label = "wanted: at least"}}};
+  Rule rule{.scale = limit, .limits = {{.at = limit, .label = "wanted: at least"}}};
   for (const Eigen::VectorXd& value : got.values) rule.beyond.emplace_back(limit - value.array());
+  rule.limit = atLeastText(limit, unit, digitsToTell(got, rule.beyond, limit));
   along(property, got, rule, unit);
 }
 

@@ -75,4 +75,29 @@ TEST(ChangedMessages, NameWhatIsNewGoneOrOtherwise) {
                   "gone: is in seen.txt, but there is no such variant", HasSubstr("REX_UPDATE_GOLDEN=1")));
 }
 
+TEST(MessagesThatExplainNothing, PrintGotAndWantedAlike) {
+  struct Row {
+    const char* message;
+    bool explains;
+  };
+  for (const Row& row : std::initializer_list<Row>{
+           {"c: y: got 0.5 m, wanted 0.5 m, off by 1e-17 m (seed 1)", false},
+           {"c: y: got (1, 2), wanted (1, 2), off by 1e-17 (tolerance 0) (seed 1)", false},
+           {"c: y: got 0.2 m, wanted at most 0.2 m (seed 1). Is it far?", false},
+           {"c: y: got 0.2 m at time 3 s, wanted at least 0.2 m, at worst 0.1 m at time 4 s (seed 1)", false},
+           {"c: y: got 7 at (10, 0), wanted 7 at (10, 0), off by 0 (seed 1)", false},
+           {"c: y: got 0.5 m, wanted 0.50000001 m, off by 1e-8 m (seed 1)", true},
+           {"c: y: got 0.5 m, wanted -0.5 m, off by 1 m (seed 1)", true},
+           {"c: y: got 3 at (10, 0), wanted 7 at (10, 0), off by 4 (seed 1)", true},
+           {"c: y: wrong shape: got 1 x 2, wanted 1 x 21 (seed 1)", true},
+           {"c: y: does not hold (seed 1)", true}}) {
+    const std::vector<std::string> complaints = messagesThatExplainNothing({{"one", row.message}});
+    if (row.explains)
+      EXPECT_THAT(complaints, IsEmpty()) << row.message;
+    else
+      EXPECT_THAT(complaints,
+                  ElementsAre(std::string("one: got and wanted are printed alike: ") + row.message));
+  }
+}
+
 }  // namespace rex::authoring::seen_messages_test

@@ -102,6 +102,10 @@ TEST_F(WrongVariantsTest, AreReadAsTheFileSays) {
   write("seen.txt", "clockwise\n    quarter-turn: something else\n");
   EXPECT_THAT(pass("wrong").message, AllOf(HasSubstr("clockwise: a student reads: quarter-turn: point"),
                                            HasSubstr("library: seen.txt does not say")));
+  write("seen.txt", "clockwise\n    quarter-turn: point: got 1 m, wanted 1 m, off by 1e-17 m (seed 1)\n");
+  EXPECT_EQ(pass("evidence").message,
+            "clockwise: got and wanted are printed alike: quarter-turn: point: got 1 m, wanted 1 m, off by "
+            "1e-17 m (seed 1)");
   fs::remove(exercise() / "seen.txt");
   EXPECT_THAT(pass("evidence").message, HasSubstr("seen.txt is missing"));
 }

@@ -138,6 +138,31 @@ TEST(Check, ComparesAnglesModuloAWholeTurn) {
   EXPECT_THAT(compare(std::nan("")).message, HasSubstr("not finite"));
 }
 
+TEST(Check, PrintsAsManyDigitsAsTellGotFromWanted) {
+  const auto pair = [](const std::function<void(Check&)>& run) {
+    const CheckResult result = judge(run);
+    return result.got + " | " + result.expected;
+  };
+  EXPECT_EQ(pair([](Check& c) { c.near("x", 0.5, 0.50000001, 1e-9, "m"); }), "0.5 m | 0.50000001 m");
+  EXPECT_EQ(pair([](Check& c) { c.near("x", 1, 1 + 1e-10, 0); }), "1 | 1.0000000001");
+  EXPECT_EQ(pair([](Check& c) { c.near("x", Eigen::Vector2d(1, 2), Eigen::Vector2d(1, 2 + 1e-15), 0); }),
+            "(1, 2) | (1, 2.0000000000000009)");
+  EXPECT_EQ(pair([](Check& c) { c.nearAngle("x", 1, 1 + 1e-8, 1e-9); }), "1 rad | 1.00000001 rad");
+  EXPECT_EQ(pair([](Check& c) { c.atMost("x", 0.2000001, 0.2, "m"); }), "0.2000001 m | at most 0.2 m");
+  EXPECT_EQ(pair([](Check& c) { c.atMost("x", 0.1234568, 0.12345678); }), "0.1234568 | at most 0.12345678");
+  EXPECT_EQ(pair([](Check& c) { c.atLeast("x", 0.1999999, 0.2, "m"); }), "0.1999999 m | at least 0.2 m");
+  const Signal signal = grading::overSteps(std::vector<Eigen::VectorXd>(2, Eigen::Vector2d(0.1, 0.2)));
+  EXPECT_EQ(pair([&](Check& c) { c.atMostAlong("x", signal, 0.19999999); }),
+            "(0.1, 0.2) at step 1 | at most 0.19999999");
+  EXPECT_EQ(pair([&](Check& c) { c.atLeastAlong("x", signal, 0.10000001); }),
+            "(0.1, 0.2) at step 1 | at least 0.10000001");
+  const std::vector<Eigen::VectorXd> wanted(2, Eigen::Vector2d(0.1, 0.20000001));
+  EXPECT_EQ(pair([&](Check& c) { c.nearAlong("x", signal, wanted, 1e-9); }),
+            "(0.1, 0.2) at step 1 | (0.1, 0.20000001)");
+  const CheckResult passed = judge([](Check& c) { c.atMost("x", 0.1 + 0.2, 0.1 + 0.2); });
+  EXPECT_EQ(passed.worst.value, "0.3") << "as short as ever";
+}
+
 // A quantity that leaves its limit at 2 s, and is farthest beyond it at 4 s.
 Signal leaving() {
   Signal signal{.axis = "time [s]"};
