@@ -436,11 +436,15 @@ class Copies {
          std::function<void(std::size_t, GradeResult)> ended)
       : start_(start), checks_(checks), grading_(grading), ended_(std::move(ended)) {}
 
-  /// A copy that is killed, perhaps because the machine is short of memory, gets a second try.
+  /// In the order of the job, if it names checks. A copy that is killed, perhaps because the machine is short
+  /// of memory, gets a second try.
   void run(Group group) {
     std::vector<std::size_t> numbers;
     for (std::size_t k = 0; k < checks_.size(); ++k)
       if (checks_[k].info.group == group) numbers.push_back(k);
+    const std::vector<std::string>& named = grading_.job.checks;
+    const auto place = [&](std::size_t k) { return std::ranges::find(named, checks_[k].info.id); };
+    std::ranges::stable_sort(numbers, {}, place);
     for (const bool isLast : {false, true}) {
       std::vector<std::size_t> killed;
       forkMap(

@@ -25,7 +25,7 @@ struct GradingJob {
   std::vector<std::string> parts{};   ///< of the exercise, with workers of their own
   std::filesystem::path control{};    ///< see slownessOfMachine(); empty: lost time is the file's fault
   std::filesystem::path results{};    ///< results.json; its fields about the submission are kept; empty: none
-  std::vector<std::string> checks{};  ///< ids; empty: all
+  std::vector<std::string> checks{};  ///< ids, in the order to run them; empty: all
   Pass pass = Pass::kWhole;           ///< a whole grading runs the hidden checks last
   std::uint64_t seed = 1;
   Limits limits{};

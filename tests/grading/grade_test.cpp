@@ -257,6 +257,24 @@ TEST(Grade, RunsChecksAtOnce) {
   EXPECT_EQ(dead.outcome, Outcome::kGraderError);
 }
 
+TEST(Grade, RunsChecksInTheOrderOfTheJobAndListsThemInTheirOwn) {
+  const auto holds = [](Check& judge, Student& student) { judge.near("square", student.square(3), 9, 1e-9); };
+  const std::vector<RunnableCheck> checks = {
+      check("a", Group::kVisible, holds), check("b", Group::kHidden, holds),
+      check("c", Group::kVisible, holds), check("d", Group::kVisible, holds)};
+  std::string order;
+  const auto note = [&](const GradeResult& now) {
+    for (const CheckResult& one : now.checks)
+      if (one.status && order.find(one.id) == order.npos) order += one.id;
+  };
+  const GradeResult result =
+      grade({}, checks, {.worker = kGood, .checks = {"b", "d", "a", "c"}}, Student::signature(), note);
+  EXPECT_EQ(order, "dacb") << "hidden checks last";
+  std::string listed;
+  for (const CheckResult& one : result.checks) listed += one.id;
+  EXPECT_EQ(listed, "abcd");
+}
+
 /// A number that copies of this process have in common.
 class SharedCount {
  public:

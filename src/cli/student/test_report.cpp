@@ -48,6 +48,11 @@ std::string marginOf(const CheckResult& check, bool isWhole) {
   return fmt::format(": {} {}, {}", escapeForTerminal(worst.property), worst.value, worst.limit);
 }
 
+// Students wait for them, and `rex watch` runs them last.
+std::string slownessOf(const CheckResult& check) {
+  return check.cpuSeconds < kSlowCheck ? "" : fmt::format(" ({:.0f} s)", check.cpuSeconds);
+}
+
 // Code is cut, not wrapped, to keep its layout.
 std::string cut(const std::string& code, std::size_t columns) {
   if (code.size() <= columns) return code;
@@ -105,7 +110,7 @@ int printChecks(const ExerciseInfo& exercise, const submission::Submission& grad
     say(paint(Colour::kBold, part.title));
     for (const CheckResult& check : checks) {
       if (!isOfPart(check)) continue;
-      say(lineOf(check, marginOf(check, view.isWhole)));
+      say(lineOf(check, slownessOf(check) + marginOf(check, view.isWhole)));
       if (check.status != Outcome::kPass && !check.message.empty()) explained.push_back(&check);
     }
   }

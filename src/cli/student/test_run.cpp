@@ -85,6 +85,25 @@ void remember(const Project& project, const ExerciseInfo& exercise, const GradeR
 
 }  // namespace
 
+std::string stageText(const GradeResult& soFar, const CheckOrder& order) {
+  constexpr std::size_t kMostTold = 3;
+  std::vector<const grading::CheckResult*> checks;  // as they are run
+  for (const grading::CheckResult& check : soFar.checks) checks.push_back(&check);
+  const auto place = [&](const grading::CheckResult* check) {
+    return std::find(order.ids.begin(), order.ids.end(), check->id) - order.ids.begin();
+  };
+  std::stable_sort(checks.begin(), checks.end(), [&](auto* a, auto* b) { return place(a) < place(b); });
+  std::string told;
+  for (std::size_t k = 0; k < std::min({order.changed, checks.size(), kMostTold}); ++k)
+    if (checks[k]->status)
+      told += fmt::format("{} {}, ", checks[k]->id, *checks[k]->status == Outcome::kPass ? "ok" : "FAIL");
+  const auto isOpen = [](const grading::CheckResult* check) { return !check->status; };
+  const auto open = std::find_if(checks.begin(), checks.end(), isOpen);
+  if (open == checks.end()) return told + "looking again";
+  return fmt::format("{}check {} of {}, {}", told, open - checks.begin() + 1, checks.size(),
+                     escapeForTerminal((*open)->title));
+}
+
 TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOptions& options)
     : exercise_(std::move(exercise)),
       options_(options),
@@ -96,6 +115,11 @@ TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOption
       reports_(parseReportFormats(options.reports)) {
   options_.job.checks = withParts(options.job.checks, exercise_, toolchain_,
                                   project.outFolder(exercise_, false) / "results.json");
+  if (options.job.checks.empty() && before_ && !options.saved.before.empty() && !options.saved.now.empty()) {
+    SavedFile saved = options.saved;
+    saved.last = before_->checks;
+    order_ = checkOrder(submission::listChecks(toolchain_), saved);
+  }
   if (options.job.secret.empty()) return;
   static_cast<void>(grading::readCourseSecret(options.job.secret));
   if (const std::string warning = grading::openSecretWarning(options.job.secret); !warning.empty())
@@ -104,6 +128,7 @@ TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOption
 
 submission::Submission TestRun::grade(const sandbox::Sandbox& sandbox, int processors) const {
   grading::GradingJob job = options_.job;
+  if (!order_.ids.empty()) job.checks = order_.ids;
   job.results = ownResults();
   job.evidence = work_.path() / "checks";
   job.sandbox = sandbox;
@@ -116,12 +141,7 @@ submission::Submission TestRun::grade(const sandbox::Sandbox& sandbox, int proce
 std::string TestRun::stage() const {
   const std::string name = exercise_.name + ": ";
   try {
-    const GradeResult soFar = grading::loadResult(ownResults());
-    const auto isOpen = [](const grading::CheckResult& check) { return !check.status; };
-    const auto open = std::find_if(soFar.checks.begin(), soFar.checks.end(), isOpen);
-    if (open == soFar.checks.end()) return name + "looking again";
-    return fmt::format("{}check {} of {}, {}", name, open - soFar.checks.begin() + 1, soFar.checks.size(),
-                       escapeForTerminal(open->title));
+    return name + stageText(grading::loadResult(ownResults()), order_);
   } catch (const std::exception&) {
     return name + "compiling";
   }

@@ -8,6 +8,7 @@
 #include "base/exit_code.h"
 #include "base/folders.h"
 #include "cli/project.h"
+#include "cli/student/check_order.h"
 #include "reports/report.h"
 #include "sandbox/confinement.h"
 #include "submission/submission.h"
@@ -23,6 +24,7 @@ struct TestOptions {
   bool json = false;
   bool debug = false;                     ///< with the sanitizers
   bool inFull = false;                    ///< every message, also of checks that failed the last time
+  SavedFile saved{};                      ///< for checkOrder(), without the last test; empty texts: as listed
   std::filesystem::path out;              ///< empty: as for run
   std::string reports;                    ///< see parseReportFormats(): written beside the result
   std::optional<sandbox::Level> level{};  ///< empty: limits only
@@ -57,9 +59,13 @@ class TestRun {
   std::filesystem::path file_, results_;
   std::optional<grading::GradeResult> before_;  // what the student's folder held
   submission::Toolchain toolchain_;
+  CheckOrder order_{};  // empty: as listed
   PrivateFolder work_;
   std::vector<reports::ReportFormat> reports_;
 };
+
+/// What a grading is doing, from its result so far: the verdicts on what changed, then the check that runs.
+[[nodiscard]] std::string stageText(const grading::GradeResult& soFar, const CheckOrder& order);
 
 [[nodiscard]] ExitCode toExitCode(const grading::GradeResult& result);
 

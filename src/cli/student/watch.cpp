@@ -19,6 +19,7 @@
 #include "cli/terminal.h"
 #include "live/live_server.h"
 #include "live/open_browser.h"
+#include "submission/student_build.h"
 
 namespace rex::cli {
 namespace {
@@ -68,20 +69,32 @@ class ResultPage {
   std::optional<WatchPage> page_{};
 };
 
-// Grades like `rex test`, only `check` unless that is empty. Reports a fault of the project, which may be
-// repaired while watching. Throws UsageError the first time, for a check that does not exist.
-ExitCode gradeOnce(const Project& project, const std::string& name, const std::string& check, bool isFirst,
-                   ResultPage& page) {
+// Empty if it cannot be read, which the grading says.
+std::string textOf(const std::filesystem::path& file) {
+  try {
+    return submission::readStudentFile(file);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+// Grades like `rex test`, only `check` unless that is empty; `before` is the file of the last whole test, or
+// of the first. Reports a fault of the project, which may be repaired while watching. Throws UsageError if
+// nothing was graded yet, for a check that does not exist.
+ExitCode gradeOnce(const Project& project, const ExerciseInfo& exercise, const std::string& check,
+                   std::optional<std::string>& before, ResultPage& page) {
   page.startGrading();
   const auto start = std::chrono::steady_clock::now();
   ExitCode code = ExitCode::kGraderFault;
   try {
     TestOptions options;
-    options.exercise = name;
+    options.exercise = exercise.name;
     if (!check.empty()) options.job.checks = {check};
+    options.saved = {.before = before.value_or(""), .now = textOf(exercise.folder / "main.cpp")};
     code = testOne(project, options);
+    if (check.empty() || !before) before = options.saved.now;
   } catch (const std::exception& error) {
-    if (isFirst && dynamic_cast<const UsageError*>(&error) != nullptr) throw;
+    if (!before && dynamic_cast<const UsageError*>(&error) != nullptr) throw;
     note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
   }
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
@@ -109,8 +122,8 @@ std::string watchOne(const Project& project, const ExerciseInfo& exercise, const
   WatchKeys keys(project, exercise, keyboard, watcher, options.check);
   say(fmt::format("watching {} by {}; press Ctrl-C to end", shown(main), watcher.describe()));
   std::fflush(stdout);
-  for (bool isFirst = true;; isFirst = false) {
-    code = gradeOnce(project, exercise.name, keys.check(), isFirst, page);
+  for (std::optional<std::string> before;;) {
+    code = gradeOnce(project, exercise, keys.check(), before, page);
     const bool isSolved = code == ExitCode::kFull && keys.check().empty();
     std::fflush(stdout);
     if (keyboard.isThere()) {
