@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/exit_code.h"
+#include "grading/failing_call.h"
 #include "grading/grown_answers.h"
 #include "grading/hostile_answers.h"
 #include "grading/results.h"
@@ -27,6 +28,7 @@ struct Arguments {
   std::int64_t hostileAnswers = 0;
   bool lies = false;
   bool grown = false;
+  std::filesystem::path failingCall{};
   bool list = false;
 };
 
@@ -42,6 +44,9 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
       "follows from the first answer replace the answers of a worker that is right");
   app.add_flag("--grown", arguments.grown,
                "make the answers of a worker that is right huge, tiny or longer, and print what that gains");
+  app.add_option("--failing-call", arguments.failingCall,
+                 "write the call with which the only check fails, for a worker in a debugger, and print the "
+                 "name of the function");
   app.add_flag("--list", arguments.list, "print the checks as JSON");
 }
 
@@ -153,6 +158,16 @@ ExitCode growAnswers(const Arguments& arguments, const std::vector<RunnableCheck
   return faults == 0 ? ExitCode::kFull : ExitCode::kBelow;
 }
 
+// Returns kFull, and writes nothing, if the check passes.
+ExitCode findFailingCall(const Arguments& arguments, const std::vector<RunnableCheck>& checks) {
+  if (checks.size() != 1) throw std::logic_error("a failing call is that of one check");
+  const std::string function =
+      writeFailingCall(checks.front(), arguments.job, arguments.signature, arguments.failingCall);
+  if (function.empty()) return ExitCode::kFull;
+  fmt::print("{}\n", function);
+  return ExitCode::kBelow;
+}
+
 ExitCode complain(const std::string& message, ExitCode code) {
   fmt::print(stderr, "grader: {}\n", message);
   return code;
@@ -188,6 +203,7 @@ ExitCode run(int argc, const char* const* argv, std::vector<RunnableCheck> check
     if (arguments.hostileAnswers > 0) return attack(arguments, checks, layouts);
     if (arguments.grown) return growAnswers(arguments, checks, layouts);
     if (arguments.lies) return lie(arguments, checks, layouts);
+    if (!arguments.failingCall.empty()) return findFailingCall(arguments, checks);
     return gradeAndSave(arguments, checks, layouts);
   } catch (const std::exception& error) {
     return complain(error.what(), ExitCode::kGraderFault);

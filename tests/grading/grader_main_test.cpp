@@ -81,6 +81,32 @@ TEST_F(Grader, GivesFullScoreToAGoodSolution) {
   EXPECT_TRUE(temporaryIsEmpty());
 }
 
+// What a worker reads in a debugger.
+TEST_F(Grader, WritesTheCallWithWhichACheckFails) {
+  const fs::path call = results().parent_path() / "call";
+  const auto find = [&](const std::string& worker, const std::string& check) {
+    return run({"--worker", (kSample / worker).string(), "--check", check, "--failing-call", call.string()});
+  };
+  const ProcessResult passes = find("good", "step");
+  EXPECT_EQ(passes.exitCode, 0) << passes.error;
+  EXPECT_EQ(passes.output, "");
+  EXPECT_FALSE(fs::exists(call));
+  const ProcessResult fails = find("nan", "step");
+  EXPECT_EQ(fails.exitCode, 1) << fails.error;
+  EXPECT_EQ(fails.output, "ikStep\n");
+  // The worker answers that call, and ends where there is no other.
+  const ProcessResult repeated =
+      runProcess({"sh", "-c", "\"$0\" 3<\"$1\" 4>\"$2\"", (kSample / "nan").string(), call.string(),
+                  (call.parent_path() / "answers").string()});
+  EXPECT_EQ(repeated.exitCode, 0) << repeated.error;
+  EXPECT_GT(fs::file_size(call.parent_path() / "answers"), 48u) << "after its introduction";
+  const ProcessResult crashes = find("segfault", "step");
+  EXPECT_EQ(crashes.exitCode, 3);
+  EXPECT_THAT(crashes.error, HasSubstr("grader: the program crashed with a segmentation fault in ikStep"));
+  const ProcessResult two = run({"--worker", (kSample / "good").string(), "--failing-call", call.string()});
+  EXPECT_THAT(two.error, HasSubstr("a failing call is that of one check"));
+}
+
 struct Trouble {
   std::string worker;
   Outcome outcome;

@@ -109,10 +109,13 @@ std::optional<std::filesystem::path> buildProgram(const Project& project, const 
   });
 }
 
-std::optional<std::filesystem::path> buildProgram(
-    const submission::Toolchain& toolchain, const submission::StudentBuildOptions& options,
-    const std::filesystem::path& log,
-    const std::function<void(const submission::StudentObject& object)>& beforeLinking) {
+namespace {
+
+using Link = std::function<submission::StudentProgram(const submission::StudentObject& object)>;
+
+std::optional<std::filesystem::path> compileAndLink(const submission::Toolchain& toolchain,
+                                                    const submission::StudentBuildOptions& options,
+                                                    const std::filesystem::path& log, const Link& link) {
   // Students may try anything here: only grading looks for forbidden calls.
   const submission::StudentObject object = compileStudent(toolchain, {}, options);
   writeTextFile(log, object.log);
@@ -122,12 +125,32 @@ std::optional<std::filesystem::path> buildProgram(
   }
   for (const CompileDiagnostic& message : object.messages)
     note(wrap(escapeForTerminal(toString(message)), 2, 0));
-  beforeLinking(object);
-  const submission::StudentProgram program = linkProgram(toolchain, object);
+  const submission::StudentProgram program = link(object);
   if (program.ok) return program.program;
   writeTextFile(log, program.log);
   explain(program.messages, object.source, log);
   return {};
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> buildProgram(
+    const submission::Toolchain& toolchain, const submission::StudentBuildOptions& options,
+    const std::filesystem::path& log,
+    const std::function<void(const submission::StudentObject& object)>& beforeLinking) {
+  return compileAndLink(toolchain, options, log, [&](const submission::StudentObject& object) {
+    beforeLinking(object);
+    return linkProgram(toolchain, object);
+  });
+}
+
+std::optional<std::filesystem::path> buildWorker(const Project& project, const ExerciseInfo& exercise,
+                                                 const submission::StudentBuildOptions& options,
+                                                 const std::filesystem::path& out) {
+  const submission::Toolchain toolchain = prepare(project, exercise);
+  return compileAndLink(toolchain, options, out / "build.log", [&](const submission::StudentObject& object) {
+    return linkWorker(toolchain, object);
+  });
 }
 
 }  // namespace rex::cli

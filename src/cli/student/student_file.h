@@ -28,6 +28,12 @@ namespace rex::cli {
     const std::filesystem::path& log,
     const std::function<void(const submission::StudentObject& object)>& beforeLinking);
 
+/// The same for the worker, which grading talks to.
+[[nodiscard]] std::optional<std::filesystem::path> buildWorker(const Project& project,
+                                                               const ExerciseInfo& exercise,
+                                                               const submission::StudentBuildOptions& options,
+                                                               const std::filesystem::path& out);
+
 /// Prints the first error in detail, the number of others, and where the log is.
 void explain(const std::vector<grading::CompileDiagnostic>& messages, const std::string& source,
              const std::filesystem::path& log);

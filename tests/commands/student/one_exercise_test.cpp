@@ -283,6 +283,36 @@ TEST_F(OneExercise, PrintsADebuggerCommand) {
   EXPECT_THAT(ended.output, ::testing::StartsWith("gdb -q -ex 'set cwd " + out().string() + "-solution' "));
 }
 
+TEST_F(OneExercise, DebugsTheCallWithWhichACheckFails) {
+  write(exercise() / "main.cpp", kGood);
+  const Ended passes = rex({"debug", "98", "--check", "quarter-turn"});
+  EXPECT_EQ(passes.code, 0) << passes.error;
+  EXPECT_EQ(passes.output, "The check passes, so there is no case to stop in: quarter-turn\n");
+  const Ended unknown = rex({"debug", "98", "--check", "quarter-trn"});
+  EXPECT_EQ(unknown.code, 64);
+  EXPECT_THAT(flat(unknown.error),
+              HasSubstr("no check is called 'quarter-trn' (did you mean 'quarter-turn'?)"));
+  write(exercise() / "main.cpp",
+        "#include \"exercise.h\"\nEigen::Vector2d rotated(const Eigen::Vector2d& p, double angle) {\n"
+        "  const double twice = 2 * angle;\n  return {twice, p.x()};\n}\nint main() {}\n");
+  const Ended fails = rex({"debug", "98", "--check", "quarter-turn", "--print"});
+  EXPECT_EQ(fails.code, 0) << fails.error;
+  EXPECT_THAT(fails.output, HasSubstr(" -ex 'break -qualified rotated' -ex 'run 3<"));
+  if (runProcess({"gdb", "--version"}).ok()) {
+    const std::string line = fails.output.substr(0, fails.output.find('\n'));
+    const ProcessResult stopped = runProcess({"sh", "-c", line + " -ex next -ex 'print twice' -batch"});
+    EXPECT_THAT(stopped.output, HasSubstr("$1 = 3.14")) << stopped.error;
+  }
+  write(exercise() / "main.cpp",
+        "#include \"exercise.h\"\n#include <cstdlib>\n"
+        "Eigen::Vector2d rotated(const Eigen::Vector2d&, double) { abort(); }\nint main() {}\n");
+  const Ended crashes = rex({"debug", "98", "--check", "quarter-turn"});
+  EXPECT_EQ(crashes.code, 3);
+  EXPECT_THAT(flat(crashes.error),
+              ::testing::AllOf(HasSubstr("there is no call to stop in: the program aborted in rotated"),
+                               HasSubstr("scripts/rex test 98-template --check quarter-turn may say more")));
+}
+
 TEST_F(OneExercise, SaysHowToGetTheDebugger) {
   fs::create_directory(root() / "bin");
   for (const char* tool : {"as", "ld", "ld.gold", "nm"})
