@@ -130,6 +130,23 @@ void countAttempts(const std::vector<const StudentResult*>& results, AttemptStat
   all.median = medianValue(attempts);
 }
 
+double hoursOf(std::int64_t seconds) { return static_cast<double>(seconds) / 3600; }
+
+void countWork(const std::vector<const StudentResult*>& results, ExerciseStatistics& all) {
+  std::vector<double> whole;
+  std::map<std::string, std::vector<double>> parts;
+  for (const StudentResult* one : results) {
+    if (!one->work) continue;
+    whole.push_back(hoursOf(one->work->seconds));
+    for (const auto& [part, seconds] : one->work->parts) parts[part].push_back(hoursOf(seconds));
+  }
+  all.work = {.known = static_cast<int>(whole.size()), .medianHours = medianValue(whole)};
+  for (PartStatistics& part : all.parts) {
+    part.timed = static_cast<int>(parts[part.id].size());
+    part.medianHours = medianValue(parts[part.id]);
+  }
+}
+
 void noteFull(const StudentResult& one, std::optional<FirstFull>& first) {
   if (one.submitted && (!first || *one.submitted < first->submitted))
     first = FirstFull{one.student, *one.submitted, one.timeFrom};
@@ -166,6 +183,7 @@ ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& resu
   for (PartStatistics& part : all.parts) part.meanPoints /= std::max(1, all.graded);
   for (CheckStatistics& check : all.checks) check.discrimination = discriminationOf(check.id, results);
   countAttempts(results, all.attempts);
+  countWork(results, all);
   all.medianPoints = medianValue(points);
   all.medianSeconds = medianValue(seconds);
   std::stable_sort(all.checks.begin(), all.checks.end(),
@@ -184,7 +202,8 @@ void addHandIns(const fs::path& folder, ClassResults& all) {
   for (const ImportedStudent& student : importTableIn(folder).students)
     for (const auto& [exercise, entry] : student.exercises)
       if (const auto found = results.find({entry.handedInBy, exercise}); found != results.end())
-        found->second->attempts = entry.attempts, found->second->attemptsFrom = entry.attemptsFrom;
+        found->second->attempts = entry.attempts, found->second->attemptsFrom = entry.attemptsFrom,
+        found->second->work = entry.work;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "classroom/gradebook.h"
 #include "classroom/stored_result.h"
 #include "grading/results.h"
+#include "submission/work_time.h"
 
 namespace rex::classroom {
 
@@ -23,6 +24,7 @@ struct StudentResult {
   std::string timeFrom{};                   ///< table, platform, git or file
   int attempts = 0;                         ///< 0: nobody counted them
   std::string attemptsFrom{};               ///< see ImportedExercise
+  std::optional<submission::WorkTime> work{};
 };
 
 /// The results R/STUDENT/EXERCISE/results.json of a folder R, with what its list of tasks and its table of
@@ -66,7 +68,9 @@ struct PartStatistics {
   std::string id{};
   int maxPoints = 0;
   double meanPoints = 0;
-  int full = 0;  ///< number of students with all of them
+  int full = 0;            ///< number of students with all of them
+  int timed = 0;           ///< number of students who say after how much work it first passed
+  double medianHours = 0;  ///< of those
 };
 
 /// The student with full points who handed in first, by the times that are known.
@@ -83,6 +87,12 @@ struct AttemptStatistics {
   double median = 0;
   int most = 0;
   std::string mostBy{};
+};
+
+/// How long those worked who handed it in with `rex submit --progress`.
+struct WorkStatistics {
+  int known = 0;  ///< number of students
+  double medianHours = 0;
 };
 
 /// From full points down to none: full, at least 75 %, 50 %, 25 %, less, none.
@@ -104,6 +114,7 @@ struct ExerciseStatistics {
   std::string slowest{};                 ///< the student with the longest time
   std::optional<FirstFull> firstFull{};  ///< empty: nobody, or the times are unknown
   AttemptStatistics attempts{};
+  WorkStatistics work{};
   std::vector<CheckStatistics> checks{};  ///< most failed first, then in the order of the results
   std::vector<PartStatistics> parts{};    ///< in the order of the results
 };

@@ -189,6 +189,10 @@ class ImportTableReader {
         throw refusal(place + ".attempts", json["attempts"].dump(), "a number from 1 on");
       read.attempts = json["attempts"].get<int>();
     }
+    if (json.contains("work")) {
+      read.work = submission::readWorkTime(json["work"].dump());
+      if (!read.work) throw refusal(place + ".work", json["work"].dump(), "seconds and parts");
+    }
     return read;
   }
 
@@ -222,6 +226,7 @@ Json jsonOf(const ImportedExercise& exercise) {
   putTexts(json, exercise, kExerciseKeys);
   if (exercise.submitted) json["submitted"] = instantText(*exercise.submitted);
   if (exercise.attempts > 0) json["attempts"] = exercise.attempts;
+  if (exercise.work) json["work"] = Json::parse(workTimeText(*exercise.work));
   return json;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "classroom/download.h"
+#include "submission/work_time.h"
 
 namespace rex::classroom {
 
@@ -38,6 +39,7 @@ struct ImportedExercise {
   std::string sha256{};                     ///< of main.cpp as it was imported
   int attempts = 0;                         ///< how often it was handed in; 0: unknown
   std::string attemptsFrom{};  ///< platform, git (commits that changed it) or imports (at least so often)
+  std::optional<submission::WorkTime> work{};  ///< handed in with `rex submit --progress`
 
   bool operator==(const ImportedExercise&) const = default;
 };

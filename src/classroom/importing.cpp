@@ -194,6 +194,7 @@ class Importer {
       entry.commit = received.commit;
       entry.source = file.source;
       entry.sha256 = sha256(file.text);
+      entry.work = file.work;
       countAttempts(file, members[k], entry);
       if (members[k] != holder) removeOwn(members[k], file.exercise);
       count(entry);

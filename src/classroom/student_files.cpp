@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/escape.h"
@@ -46,7 +47,8 @@ class FilePicker {
  private:
   void look(const DownloadedFile& file, bool isPacked) {
     const fs::path path(file.name);
-    if (isOfSystem(path) || path.filename() == kReceiptOfSubmit) return;
+    if (isOfSystem(path)) return;
+    if (path.filename() == kReceiptOfSubmit) return lookAtReceipt(file);
     isLeft_ = true;
     const bool isMain = path.filename() == kMainFile, isArchive = isArchiveName(file.name);
     if (!file.text && !file.whyNot.empty() && (isMain || isArchive || isSourceName(file.name)))
@@ -101,6 +103,33 @@ class FilePicker {
       found_[exercise].push_back(&keep(file));
   }
 
+  // {"files": [{"name": "01-kinematics/main.cpp", "work": {...}, ...}]}
+  void lookAtReceipt(const DownloadedFile& file) {
+    if (!file.text) return;
+    const nlohmann::json receipt = nlohmann::json::parse(*file.text, nullptr, false);
+    if (!receipt.is_object() || !receipt.contains("files") || !receipt["files"].is_array()) return;
+    for (const nlohmann::json& one : receipt["files"]) {
+      if (!one.is_object() || !one.contains("work")) continue;
+      const std::string name = one.contains("name") && one["name"].is_string() ? one["name"] : "";
+      const auto exercise =
+          std::ranges::find(options_.exercises, exerciseAround(name), &submission::ExerciseInfo::name);
+      const auto work = submission::readWorkTime(one["work"].dump());
+      if (work && exercise != options_.exercises.end() && areParts(work->parts, *exercise))
+        work_[exercise->name] = *work;
+      else
+        picked_.notes.push_back(
+            fmt::format("{}: left out, as rex did not write it: how long somebody worked", file.place));
+    }
+  }
+
+  static bool areParts(const std::map<std::string, std::int64_t>& ids,
+                       const submission::ExerciseInfo& exercise) {
+    return std::ranges::all_of(ids, [&](const auto& one) {
+      return std::ranges::find(exercise.parts, one.first, &submission::ExercisePart::id) !=
+             exercise.parts.end();
+    });
+  }
+
   std::string exerciseOf(const DownloadedFile& file) const {
     const std::string around = exerciseAround(file.name);
     return around.empty() ? options_.exercise : around;
@@ -145,7 +174,13 @@ class FilePicker {
       isUntouched_ = true,
       picked_.notes.push_back(fmt::format("{}: as it was handed out, not taken", file.place));
     else
-      picked_.files.push_back({exercise, *file.text, file.place, file.modifiedAt, file.attempts});
+      picked_.files.push_back(
+          {exercise, *file.text, file.place, file.modifiedAt, file.attempts, workOn(exercise)});
+  }
+
+  std::optional<submission::WorkTime> workOn(const std::string& exercise) const {
+    const auto found = work_.find(exercise);
+    return found == work_.end() ? std::nullopt : std::optional(found->second);
   }
 
   const DownloadedFile& keep(const DownloadedFile& file) {
@@ -180,6 +215,7 @@ class FilePicker {
   std::vector<std::unique_ptr<DownloadedFile>> kept_{};
   std::map<std::string, std::vector<const DownloadedFile*>> found_{};
   std::vector<const DownloadedFile*> others_{};
+  std::map<std::string, submission::WorkTime> work_{};
 };
 
 }  // namespace

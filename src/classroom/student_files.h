@@ -1,11 +1,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "classroom/download.h"
 #include "submission/exercise_info.h"
+#include "submission/work_time.h"
 
 namespace rex::classroom {
 
@@ -16,6 +18,7 @@ struct PickedFile {
   std::string source{};         ///< path in the download, through archives: "zoe.zip/01/main.cpp"
   std::int64_t modifiedAt = 0;  ///< seconds since 1970 in UTC; 0: unknown
   int attempts = 0;             ///< how often it was handed in; 0: unknown
+  std::optional<submission::WorkTime> work{};  ///< as the receipt says, if the student wants that
 };
 
 /// What was found in the files of one student.

@@ -177,35 +177,6 @@ TEST(ClassStatistics, NameTheFirstFullScoreAndCountAttempts) {
   EXPECT_EQ(all.attempts.mostBy, "s0");
 }
 
-TEST(ClassResults, KnowTimesAndAttemptsAndRefuseWhatWasEdited) {
-  const TemporaryFolder folder;
-  const Task adam = sampleTask("adam"), zoe = sampleTask("zoe");
-  saveSample(folder.path(), adam, sampleResult(3, 4, 3));
-  grading::GradeResult edited = sampleResult(3, 0, 0);
-  edited.score = 10;
-  saveSample(folder.path(), zoe, edited);
-  writeTextFile(folder.path() / "tasks.tsv", toManifest({adam, zoe}));
-  const ImportTable imported{{{.student = "adam",
-                               .exercises = {{"01-kinematics",
-                                              {.platform = "gradescope",
-                                               .status = SubmissionStatus::kHandedIn,
-                                               .handedInBy = "adam",
-                                               .attempts = 3,
-                                               .attemptsFrom = "platform"}}}}}};
-  writeTextFile(folder.path() / kImportTable, importTableText(imported));
-  const ClassResults read = readClassResults(folder.path());
-  ASSERT_EQ(read.results.size(), 1u);
-  EXPECT_EQ(read.results[0].submitted, adam.submitted);
-  EXPECT_EQ(read.results[0].timeFrom, "table");
-  EXPECT_EQ(read.results[0].attempts, 3);
-  EXPECT_EQ(read.results[0].attemptsFrom, "platform");
-  EXPECT_THAT(read.complaints,
-              ElementsAre(HasSubstr("zoe/01-kinematics/results.json: a result that does not add up")));
-  writeTextFile(folder.path() / "tasks.tsv", "x");
-  EXPECT_THAT(readClassResults(folder.path()).complaints,
-              ::testing::Contains(HasSubstr("not a list of tasks")));
-}
-
 // Three checks of one point each: those of part p are passed by the good half, the odd one by the others.
 std::vector<StudentResult> halves() {
   std::vector<StudentResult> results;
@@ -227,6 +198,54 @@ std::vector<StudentResult> halves() {
     results.push_back(one);
   }
   return results;
+}
+
+TEST(ClassStatistics, GiveMediansOfTheWorkThatWasHandedIn) {
+  std::vector<StudentResult> results = halves();
+  const ExerciseStatistics none = exerciseStatistics(results).front();
+  EXPECT_EQ(none.work.known, 0);
+  EXPECT_EQ(none.parts.front().timed, 0);
+  results[0].work = submission::WorkTime{.seconds = 3600, .parts = {{"p", 1800}}};
+  results[3].work = submission::WorkTime{.seconds = 7200, .parts = {{"p", 7200}, {"q", 5400}}};
+  results[5].work = submission::WorkTime{.seconds = 14400};
+  const ExerciseStatistics all = exerciseStatistics(results).front();
+  EXPECT_EQ(all.work.known, 3);
+  EXPECT_DOUBLE_EQ(all.work.medianHours, 2);
+  EXPECT_EQ(all.parts.at(0).timed, 2);
+  EXPECT_DOUBLE_EQ(all.parts.at(0).medianHours, 1.25);
+  EXPECT_EQ(all.parts.at(1).timed, 1);
+  EXPECT_DOUBLE_EQ(all.parts.at(1).medianHours, 1.5);
+}
+
+TEST(ClassResults, KnowTimesAndAttemptsAndRefuseWhatWasEdited) {
+  const TemporaryFolder folder;
+  const Task adam = sampleTask("adam"), zoe = sampleTask("zoe");
+  saveSample(folder.path(), adam, sampleResult(3, 4, 3));
+  grading::GradeResult edited = sampleResult(3, 0, 0);
+  edited.score = 10;
+  saveSample(folder.path(), zoe, edited);
+  writeTextFile(folder.path() / "tasks.tsv", toManifest({adam, zoe}));
+  const ImportTable imported{{{.student = "adam",
+                               .exercises = {{"01-kinematics",
+                                              {.platform = "gradescope",
+                                               .status = SubmissionStatus::kHandedIn,
+                                               .handedInBy = "adam",
+                                               .attempts = 3,
+                                               .attemptsFrom = "platform",
+                                               .work = submission::WorkTime{.seconds = 60}}}}}}};
+  writeTextFile(folder.path() / kImportTable, importTableText(imported));
+  const ClassResults read = readClassResults(folder.path());
+  ASSERT_EQ(read.results.size(), 1u);
+  EXPECT_EQ(read.results[0].submitted, adam.submitted);
+  EXPECT_EQ(read.results[0].timeFrom, "table");
+  EXPECT_EQ(read.results[0].attempts, 3);
+  EXPECT_EQ(read.results[0].attemptsFrom, "platform");
+  EXPECT_EQ(read.results[0].work.value().seconds, 60);
+  EXPECT_THAT(read.complaints,
+              ElementsAre(HasSubstr("zoe/01-kinematics/results.json: a result that does not add up")));
+  writeTextFile(folder.path() / "tasks.tsv", "x");
+  EXPECT_THAT(readClassResults(folder.path()).complaints,
+              ::testing::Contains(HasSubstr("not a list of tasks")));
 }
 
 TEST(ClassStatistics, SayHowEachCheckSeparatesStudents) {

@@ -30,7 +30,8 @@ ImportTable sample() {
                             .source = "a/main.cpp",
                             .sha256 = "ab",
                             .attempts = 3,
-                            .attemptsFrom = "imports"}},
+                            .attemptsFrom = "imports",
+                            .work = submission::WorkTime{.seconds = 90, .parts = {{"step", 60}}}}},
                           {"02-control",
                            {.platform = "moodle", .status = SubmissionStatus::kRejected, .why = "a zip"}}}},
            {.student = "zz", .exercises = {{"01-kinematics", {.platform = "moodle"}}}}}};
@@ -86,6 +87,10 @@ TEST_F(ImportTableTest, SaysWhereItIsWrong) {
       read(R"({"schema": "rex-import/1", "students": [{"student": "zoe", "exercises": {"01-kinematics": )"
            R"({"status": "handed_in", "attempts": 0}}}]})"),
       "students[0].exercises.01-kinematics.attempts: found 0, wanted a number from 1 on");
+  EXPECT_REX_ERROR(
+      read(R"({"schema": "rex-import/1", "students": [{"student": "zoe", "exercises": {"01-kinematics": )"
+           R"({"status": "handed_in", "work": {"seconds": "7"}}}}]})"),
+      R"(students[0].exercises.01-kinematics.work: found {"seconds":"7"}, wanted seconds and parts)");
   const std::string start = R"({"schema": "rex-import/1", "students": )";
   EXPECT_REX_ERROR(read("{"), "import.json: not a table of imports: found text that is not JSON");
   EXPECT_REX_ERROR(read("[]"), "not a table of imports: found no table");

@@ -50,6 +50,34 @@ TEST_F(StudentFilesTest, FindsExercisesByTheFolderAroundTheirFile) {
   EXPECT_THAT(picked.notes, ElementsAre("zoe/notes.txt: ignored"));
 }
 
+TEST_F(StudentFilesTest, TakesTimesOfWorkFromAReceipt) {
+  exercises_[0].parts.emplace_back().id = "step";
+  const auto pickedWith = [&](const std::string& receipt) {
+    return pick({{.name = "01/main.cpp", .text = kText}, {.name = "receipt.json", .text = receipt}});
+  };
+  const PickedFiles picked = pickedWith(
+      R"({"files": [{"name": "01-kinematics/main.cpp", "work": {"seconds": 60, "parts": {"step": 30}}}]})");
+  EXPECT_EQ(picked.files.at(0).work.value().seconds, 60);
+  EXPECT_EQ(picked.files.at(0).work->parts.at("step"), 30);
+  EXPECT_THAT(picked.notes, IsEmpty());
+  for (const char* plain :
+       {"", "7", "{}", R"({"files": 7})", R"({"files": [7, {"name": "01-kinematics/main.cpp"}]})"}) {
+    EXPECT_FALSE(pickedWith(plain).files.at(0).work) << plain;
+    EXPECT_THAT(pickedWith(plain).notes, IsEmpty()) << plain;
+  }
+  for (const char* odd :
+       {R"({"files": [{"name": "01-kinematics/main.cpp", "work": {"seconds": -60, "parts": {}}}]})",
+        R"({"files": [{"name": "01-kinematics/main.cpp", "work": {"seconds": 9, "parts": {"x": 3}}}]})",
+        R"({"files": [{"name": "09/main.cpp", "work": {"seconds": 9, "parts": {}}}]})",
+        R"({"files": [{"work": {"seconds": 9, "parts": {}}}]})"}) {
+    EXPECT_FALSE(pickedWith(odd).files.at(0).work) << odd;
+    EXPECT_THAT(pickedWith(odd).notes,
+                ElementsAre("zoe/receipt.json: left out, as rex did not write it: how long "
+                            "somebody worked"))
+        << odd;
+  }
+}
+
 TEST_F(StudentFilesTest, TakesAFileAnywhereIfTheExerciseIsKnown) {
   EXPECT_THAT(sources(pick({{.name = "main.cpp", .text = kText}}, "02-control")),
               ElementsAre("02-control from zoe/main.cpp"));

@@ -40,9 +40,12 @@ void addParts(Results& results, const ExerciseStatistics& all) {
   for (const PartStatistics& part : all.parts) width = std::max(width, part.id.size());
   for (const PartStatistics& part : all.parts) {
     const double share = part.maxPoints > 0 ? part.meanPoints / part.maxPoints : 0;
-    results.line("  part {:{}}  {} {:3.0f} % of {} points, {} of {} have them all",
+    const std::string after = part.timed == 0 ? ""
+                                              : fmt::format("; first passed after {:.1f} h (median of {})",
+                                                            part.medianHours, part.timed);
+    results.line("  part {:{}}  {} {:3.0f} % of {} points, {} of {} have them all{}",
                  escapeForTerminal(part.id), width, bar(static_cast<int>(std::lround(share * 1000)), 1000),
-                 100 * share, part.maxPoints, part.full, all.graded);
+                 100 * share, part.maxPoints, part.full, all.graded, after);
   }
 }
 
@@ -129,6 +132,12 @@ void addAttempts(Results& results, const ExerciseStatistics& all) {
   results.line("  {}", wrap(text, 6, 6));
 }
 
+void addWork(Results& results, const ExerciseStatistics& all) {
+  if (all.work.known == 0) return;
+  results.line("  work     median {:.1f} h until the last save, by the {} who handed in their progress",
+               all.work.medianHours, all.work.known);
+}
+
 void addStatistics(Results& results, const ExerciseStatistics& all, const classroom::LateRule& rule) {
   results.line("{}: {} graded, {} with full score", escapeForTerminal(all.exercise), all.graded, all.full);
   if (all.graderFailed > 0)
@@ -147,6 +156,7 @@ void addStatistics(Results& results, const ExerciseStatistics& all, const classr
                escapeForTerminal(all.slowest));
   addFirstFull(results, all, rule);
   addAttempts(results, all);
+  addWork(results, all);
   addParts(results, all);
   addChecks(results, all);
 }
@@ -202,24 +212,29 @@ Json toJson(const ExerciseStatistics& all, const classroom::LateRule& rule,
     parts.push_back({{"id", part.id},
                      {"max_points", part.maxPoints},
                      {"mean_points", part.meanPoints},
-                     {"full", part.full}});
-  return {{"exercise", all.exercise},
-          {"graded", all.graded},
-          {"full", all.full},
-          {"grader_failed", all.graderFailed},
-          {"versions", all.versions},
-          {"max_points", all.maxPoints},
-          {"mean_points", all.meanPoints},
-          {"median_points", all.medianPoints},
-          {"distribution", distribution},
-          {"median_seconds", all.medianSeconds},
-          {"longest_seconds", all.longestSeconds},
-          {"slowest", all.slowest},
-          {"first_full", firstFullJson(all, rule)},
-          {"attempts", attemptsJson(all.attempts)},
-          {"students", studentsJson(results, all.exercise)},
-          {"parts", parts},
-          {"checks", checks}};
+                     {"full", part.full},
+                     {"timed", part.timed},
+                     {"median_hours", part.timed > 0 ? Json(part.medianHours) : Json()}});
+  return {
+      {"exercise", all.exercise},
+      {"graded", all.graded},
+      {"full", all.full},
+      {"grader_failed", all.graderFailed},
+      {"versions", all.versions},
+      {"max_points", all.maxPoints},
+      {"mean_points", all.meanPoints},
+      {"median_points", all.medianPoints},
+      {"distribution", distribution},
+      {"median_seconds", all.medianSeconds},
+      {"longest_seconds", all.longestSeconds},
+      {"slowest", all.slowest},
+      {"first_full", firstFullJson(all, rule)},
+      {"attempts", attemptsJson(all.attempts)},
+      {"work",
+       all.work.known > 0 ? Json{{"known", all.work.known}, {"median_hours", all.work.medianHours}} : Json()},
+      {"students", studentsJson(results, all.exercise)},
+      {"parts", parts},
+      {"checks", checks}};
 }
 
 void printCsv(const std::vector<ExerciseStatistics>& all) {

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/instant.h"
 #include "base/sha256.h"
 #include "base/text_file.h"
 #include "cli/json_internal.h"
@@ -38,6 +39,32 @@ class Lock {
   int fd_;
 };
 
+// 0 if there is none.
+std::int64_t instantIn(const Json& entry, const char* key) {
+  return parseInstant(entry.value(key, "")).value_or(0);
+}
+
+Work workOf(const Json& entry) {
+  Work work{.seconds = entry.value("seconds", std::int64_t{0}),
+            .lastSave = instantIn(entry, "last_save"),
+            .fileSha256 = entry.value("file_sha256", "")};
+  if (entry.contains("parts"))
+    for (const auto& [id, part] : entry.at("parts").items())
+      work.parts[id] = {.at = instantIn(part, "first_passed"),
+                        .worked = part.value("after_seconds", std::int64_t{0})};
+  return work;
+}
+
+Json toJson(const Work& work) {
+  Json parts = Json::object();
+  for (const auto& [id, part] : work.parts)
+    parts[id] = {{"first_passed", instantText(part.at)}, {"after_seconds", part.worked}};
+  return {{"seconds", work.seconds},
+          {"last_save", instantText(work.lastSave)},
+          {"file_sha256", work.fileSha256},
+          {"parts", parts}};
+}
+
 Progress progressOf(const Json& entry) {
   Progress progress{.tested = entry.contains("points"),
                     .points = entry.value("points", 0),
@@ -45,6 +72,7 @@ Progress progressOf(const Json& entry) {
                     .solved = entry.value("solved", false),
                     .fileSha256 = entry.value("file_sha256", "")};
   if (entry.contains("hints")) entry.at("hints").get_to(progress.hints);
+  if (entry.contains("work")) progress.work = workOf(entry.at("work"));
   return progress;
 }
 
@@ -56,6 +84,7 @@ void putInto(Json& entry, const Progress& progress) {
     entry["file_sha256"] = progress.fileSha256;
   }
   if (!progress.hints.empty()) entry["hints"] = progress.hints;
+  if (progress.work.lastSave != 0) entry["work"] = toJson(progress.work);
 }
 
 // Throws a Json::exception if it is not a progress file.
@@ -100,6 +129,21 @@ void complain(const fs::path& folder, const std::exception& error) {
 }
 
 }  // namespace
+
+void addTest(Work& work, const grading::GradeResult& result, bool isWhole, std::int64_t now) {
+  if (result.snapshotSha256 != work.fileSha256) {
+    const std::int64_t pause = now - work.lastSave;
+    if (work.lastSave != 0 && pause > 0 && pause <= kLongestPause) work.seconds += pause;
+    work.lastSave = now;
+    work.fileSha256 = result.snapshotSha256;
+  }
+  if (!isWhole) return;
+  std::map<std::string, bool> passes;
+  for (const grading::CheckResult& check : result.checks)
+    passes.try_emplace(check.part, true).first->second &= check.status == grading::Outcome::kPass;
+  for (const auto& [part, all] : passes)
+    if (all) work.parts.try_emplace(part, PassedPart{.at = now, .worked = work.seconds});
+}
 
 AllProgress ProgressFile::read() const {
   if (!fs::exists(folder_)) return {};

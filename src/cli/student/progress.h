@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -7,8 +8,30 @@
 
 #include "base/exit_code.h"
 #include "cli/project.h"
+#include "grading/results.h"
 
 namespace rex::cli {
+
+/// When a part passed for the first time.
+struct PassedPart {
+  std::int64_t at = 0;      ///< seconds since 1970 in UTC
+  std::int64_t worked = 0;  ///< Work::seconds then
+};
+
+/// How long a file was worked on, as far as saves tell that a test has seen.
+struct Work {
+  std::int64_t seconds = 0;   ///< the times between saves that are no pauses
+  std::int64_t lastSave = 0;  ///< seconds since 1970 in UTC; 0: none was seen
+  std::string fileSha256{};   ///< of the file then
+  std::map<std::string, PassedPart> parts{};
+};
+
+/// What is between two saves counts as work if it is at most so many seconds.
+inline constexpr std::int64_t kLongestPause = 15 * 60;
+
+/// Adds a test that ended at `now`: the time since the last save if it found another file, and, if it had all
+/// checks, the parts that passed.
+void addTest(Work& work, const grading::GradeResult& result, bool isWhole, std::int64_t now);
 
 /// What `rex` remembers about one exercise.
 struct Progress {
@@ -18,6 +41,7 @@ struct Progress {
   bool solved = false;                 ///< a complete test once had the full score
   std::string fileSha256{};            ///< hash of the main.cpp that was tested last
   std::map<std::string, int> hints{};  ///< number of hints shown, by part
+  Work work{};
 };
 
 struct AllProgress {

@@ -109,6 +109,7 @@ class TestMany {
         fmt::format("{} of {} exercises in full, {} of {} points", full, all.size(), points, maxPoints);
     if (refused > 0) line += fmt::format("; {} cannot be graded", refused);
     if (faults > 0) line += fmt::format("; {} hit a grader fault", faults);
+    if (isFirst_) say(aboutWork() + "\n");
     say(paint(full == static_cast<int>(all.size()) ? Colour::kGreen : Colour::kBold, line));
   }
 
@@ -116,6 +117,7 @@ class TestMany {
     Json list = Json::array();
     for (const TestRun& run : runs_) list.push_back(Json::parse(readTextFile(run.ownResults())));
     for (const GradeResult& result : blocked_) list.push_back(Json::parse(toJson(result)));
+    if (isFirst_) note(aboutWork());
     say(Json{{"schema", "rex-results/1"}, {"results", list}}.dump(2));
   }
 
@@ -129,7 +131,7 @@ class TestMany {
  private:
   void take(std::size_t k, int code) {
     graded_[k] = collect(runs_[k], code);
-    runs_[k].publish(project_, graded_[k]->result);
+    isFirst_ = runs_[k].publish(project_, graded_[k]->result) || isFirst_;
     ++ended_;
   }
 
@@ -161,6 +163,7 @@ class TestMany {
 
   const Project& project_;
   bool asJson_;
+  bool isFirst_ = false;              // see TestRun::publish()
   std::deque<TestRun> runs_;          // a deque, as a TestRun cannot move its private folder
   std::vector<GradeResult> blocked_;  // of those whose grader does not build
   std::vector<std::optional<Submission>> graded_;

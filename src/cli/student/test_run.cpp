@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <thread>
 #include <utility>
 
@@ -72,15 +73,23 @@ std::vector<std::string> withParts(const std::vector<std::string>& names, const 
   return checks;
 }
 
-void remember(const Project& project, const ExerciseInfo& exercise, const GradeResult& result) {
-  if (result.outcome == Outcome::kGraderError) return;
-  ProgressFile(project.root).change(exercise.name, [&](Progress& progress) {
+// Returns whether it is the first work that is noted in this folder.
+bool remember(const Project& project, const ExerciseInfo& exercise, const GradeResult& result, bool isWhole) {
+  if (result.outcome == Outcome::kGraderError) return false;
+  const ProgressFile file(project.root);
+  const AllProgress all = file.read();
+  const bool isFirst =
+      std::ranges::all_of(all.exercises, [](const auto& one) { return one.second.work.lastSave == 0; });
+  const bool isKept = file.change(exercise.name, [&](Progress& progress) {
+    addTest(progress.work, result, isWhole, std::time(nullptr));
+    if (!isWhole) return;
     progress.tested = true;
     progress.points = result.score;
     progress.maxPoints = result.maxScore;
     progress.solved = progress.solved || result.outcome == Outcome::kPass;
     progress.fileSha256 = result.snapshotSha256;
   });
+  return isFirst && isKept;
 }
 
 }  // namespace
@@ -147,7 +156,7 @@ std::string TestRun::stage() const {
   }
 }
 
-void TestRun::publish(const Project& project, const GradeResult& result) const {
+bool TestRun::publish(const Project& project, const GradeResult& result) const {
   const fs::path out = results_.parent_path(), log = work_.path() / "build.log",
                  evidence = work_.path() / "checks";
   replaceTextFile(results_, readTextFile(ownResults()), "the result file");
@@ -157,8 +166,15 @@ void TestRun::publish(const Project& project, const GradeResult& result) const {
       replaceTextFile(out / format.file, format.write(result), "the report");
   fs::remove_all(out / "checks");
   if (fs::exists(evidence)) fs::copy(evidence, out / "checks", fs::copy_options::recursive);
-  if (options_.main.empty() && !options_.solution && !options_.debug && options_.job.checks.empty())
-    remember(project, exercise_, result);
+  if (!options_.main.empty() || options_.solution || options_.debug) return false;
+  return remember(project, exercise_, result, options_.job.checks.empty());
+}
+
+std::string aboutWork() {
+  return wrap(
+      "From now on, rex notes in .rex/progress.json how long you work on each exercise, and when its parts "
+      "first pass. That stays on this machine unless you hand it in with rex submit --progress.",
+      0, 0);
 }
 
 void TestRun::print(const submission::Submission& graded) const {
@@ -189,11 +205,14 @@ ExitCode testOne(const Project& project, const TestOptions& options) {
     const ProgressLine line([&] { return run.stage(); });
     return run.grade(*sandbox, processors);
   }();
-  run.publish(project, graded.result);
-  if (options.json)
+  const bool isFirst = run.publish(project, graded.result);
+  if (options.json) {
     std::fputs(readTextFile(run.ownResults()).c_str(), stdout);
-  else
+    if (isFirst) note(aboutWork());
+  } else {
     run.print(graded);
+    if (isFirst) say(aboutWork());
+  }
   return toExitCode(graded.result);
 }
 

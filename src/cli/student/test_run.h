@@ -48,8 +48,9 @@ class TestRun {
   /// What grade() is doing, from the growing result file.
   [[nodiscard]] std::string stage() const;
   /// Copies the result, log and evidence to the student's results folder, writes its reports there, renewing
-  /// those that are there already, and records the points. Throws Error if that fails.
-  void publish(const Project& project, const grading::GradeResult& result) const;
+  /// those that are there already, and records the points and the work. Returns whether work was never
+  /// recorded before: see aboutWork(). Throws Error if that fails.
+  bool publish(const Project& project, const grading::GradeResult& result) const;
   /// Prints the table for people. Call it after publish().
   void print(const submission::Submission& graded) const;
 
@@ -63,6 +64,9 @@ class TestRun {
   PrivateFolder work_;
   std::vector<reports::ReportFormat> reports_;
 };
+
+/// The note that students get once in each course folder: what is recorded about their work, and where.
+[[nodiscard]] std::string aboutWork();
 
 /// What a grading is doing, from its result so far: the verdicts on what changed, then the check that runs.
 [[nodiscard]] std::string stageText(const grading::GradeResult& soFar, const CheckOrder& order);

@@ -67,6 +67,67 @@ TEST_F(ProgressFileTest, RemembersWhatWasTested) {
   EXPECT_EQ(all.exercises.at("02-next").hints.at("a"), 2);
 }
 
+grading::GradeResult tested(const std::string& hash,
+                            const std::vector<std::pair<std::string, bool>>& checks) {
+  grading::GradeResult result{.snapshotSha256 = hash};
+  for (const auto& [part, passes] : checks)
+    result.checks.push_back(
+        {.part = part, .status = passes ? grading::Outcome::kPass : grading::Outcome::kFail});
+  return result;
+}
+
+TEST(Work, IsTheTimeBetweenSavesThatIsNoPause) {
+  struct Row {
+    std::int64_t now;
+    const char* hash;
+    std::int64_t seconds;
+  };
+  Work work;
+  for (const Row& row : std::initializer_list<Row>{{1000, "a", 0},     // the first
+                                                   {1600, "a", 0},     // not saved
+                                                   {1660, "b", 660},   // since the last save
+                                                   {1660, "c", 660},   //
+                                                   {2560, "d", 1560},  // just no pause
+                                                   {3461, "e", 1560},  // a pause
+                                                   {3400, "f", 1560},  // a clock that was set back
+                                                   {3500, "g", 1660}}) {
+    addTest(work, tested(row.hash, {}), true, row.now);
+    EXPECT_EQ(work.seconds, row.seconds) << row.hash;
+  }
+  EXPECT_EQ(work.lastSave, 3500);
+}
+
+TEST(Work, NotesWhenPartsPassedForTheFirstTime) {
+  Work work;
+  addTest(work, tested("a", {{"one", true}, {"two", true}, {"two", false}}), true, 1000);
+  addTest(work, tested("b", {{"one", false}, {"two", true}, {"two", true}}), true, 1100);
+  addTest(work, tested("c", {{"one", true}, {"three", true}}), false, 1200);  // only some checks
+  EXPECT_EQ(work.parts.size(), 2u);
+  EXPECT_EQ(work.parts.at("one").at, 1000);
+  EXPECT_EQ(work.parts.at("one").worked, 0);
+  EXPECT_EQ(work.parts.at("two").at, 1100);
+  EXPECT_EQ(work.parts.at("two").worked, 100);
+  EXPECT_EQ(work.seconds, 200);
+}
+
+TEST_F(ProgressFileTest, RemembersTheWork) {
+  countOne("a");
+  EXPECT_EQ(fileText(file()).find("work"), std::string::npos);
+  progress().change("01-demo", [](Progress& one) {
+    one.work = {.seconds = 90,
+                .lastSave = 1'795'215'540,
+                .fileSha256 = "ab",
+                .parts = {{"one", {1'795'215'000, 60}}}};
+  });
+  EXPECT_THAT(fileText(file()), HasSubstr("\"last_save\": \"2026-11-20T22:59:00Z\""));
+  const Work back = progress().read().exercises.at("01-demo").work;
+  EXPECT_EQ(back.seconds, 90);
+  EXPECT_EQ(back.lastSave, 1'795'215'540);
+  EXPECT_EQ(back.fileSha256, "ab");
+  EXPECT_EQ(back.parts.at("one").at, 1'795'215'000);
+  EXPECT_EQ(back.parts.at("one").worked, 60);
+}
+
 TEST_F(ProgressFileTest, KeepsKeysThatItDoesNotKnow) {
   write(R"({"schema": "rex-progress/1", "exercises": {"01-demo": {"badge": "gold"}}, "later": 7})");
   countOne("a");

@@ -263,6 +263,32 @@ TEST_F(StudentLoop, HandsInTheListedFileWithItsHash) {
   EXPECT_EQ(fileText(zip), bytes) << "the same files, the same bytes";
 }
 
+TEST_F(StudentLoop, HandsInProgressIfAsked) {
+  write(main(), kGood);
+  recordTest(3);
+  const fs::path zip = root() / "handin.zip";
+  const auto receipt = [&] {
+    const std::vector<std::string> unzip = {"python3", "-m",         "zipfile",
+                                            "-e",      zip.string(), (root() / "unpacked").string()};
+    EXPECT_TRUE(runProcess(unzip).ok());
+    return fileText(root() / "unpacked/receipt.json");
+  };
+  EXPECT_THAT(
+      flat(rex({"submit", "98", "--progress", "-o", zip}).output),
+      HasSubstr("98-template: the receipt says that you worked on it for 0 min, and when 0 of 1 parts "
+                "passed"));
+  EXPECT_THAT(receipt(), HasSubstr("\"seconds\": 0"));
+  ProgressFile(root()).change("98-template", [&](Progress& progress) {
+    progress.work = {
+        .seconds = 5400, .lastSave = 1000, .fileSha256 = "ab", .parts = {{"rotate", {900, 3600}}}};
+  });
+  EXPECT_THAT(flat(rex({"submit", "98", "--progress", "-o", zip}).output),
+              HasSubstr("worked on it for 90 min, and when 1 of 1 parts passed"));
+  EXPECT_THAT(receipt(), HasSubstr("\"rotate\": 3600"));
+  EXPECT_EQ(rex({"submit", "98", "-o", zip}).code, 0);
+  EXPECT_THAT(receipt(), Not(HasSubstr("work"))) << "only on request";
+}
+
 TEST_F(StudentLoop, RefusesWhatCannotBeHandedIn) {
   const Ended name = rex({"submit", "98", "-o", "handin.tar"});
   EXPECT_EQ(name.code, 64);

@@ -87,7 +87,13 @@ TEST_F(DevStatsTest, PrintsJsonAndCsv) {
   const Json& one = json.at("exercises").at(0);
   EXPECT_EQ(one.at("mean_points"), 1.5);
   EXPECT_EQ(one.at("distribution").at("none"), 1);
-  EXPECT_EQ(one.at("parts").at(1), (Json{{"id", "r"}, {"max_points", 2}, {"mean_points", 1.0}, {"full", 2}}));
+  EXPECT_EQ(one.at("parts").at(1), (Json{{"id", "r"},
+                                         {"max_points", 2},
+                                         {"mean_points", 1.0},
+                                         {"full", 2},
+                                         {"timed", 0},
+                                         {"median_hours", nullptr}}));
+  EXPECT_EQ(one.at("work"), Json());
   EXPECT_EQ(one.at("checks").at(1), (Json{{"id", "turns"},
                                           {"part", "r"},
                                           {"title", "Turns"},
@@ -121,13 +127,15 @@ TEST_F(DevStatsTest, SaysWhenTheFirstFullScoreCameAndHowOftenStudentsHandedIn) {
   }
   write(results() / "tasks.tsv", classroom::toManifest(tasks));
   const auto entry = [](const std::string& student, int attempts, const std::string& from) {
-    return classroom::ImportedStudent{.student = student,
-                                      .exercises = {{"98-template",
-                                                     {.platform = "moodle",
-                                                      .status = classroom::SubmissionStatus::kHandedIn,
-                                                      .handedInBy = student,
-                                                      .attempts = attempts,
-                                                      .attemptsFrom = from}}}};
+    return classroom::ImportedStudent{
+        .student = student,
+        .exercises = {{"98-template",
+                       {.platform = "moodle",
+                        .status = classroom::SubmissionStatus::kHandedIn,
+                        .handedInBy = student,
+                        .attempts = attempts,
+                        .attemptsFrom = from,
+                        .work = submission::WorkTime{.seconds = 3600 * attempts, .parts = {{"p", 1800}}}}}}};
   };
   write(results() / "import.json",
         classroom::importTableText({{entry("adam", 5, "platform"), entry("bob", 2, "imports")}}));
@@ -142,6 +150,10 @@ TEST_F(DevStatsTest, SaysWhenTheFirstFullScoreCameAndHowOftenStudentsHandedIn) {
   EXPECT_THAT(flat(ended.output),
               HasSubstr("attempts median 3.5, most 5 (adam); known of 2 of 4, of 1 as the number of imports "
                         "that brought another file: at least so many"));
+  EXPECT_THAT(
+      ended.output,
+      HasSubstr("\n  work     median 3.5 h until the last save, by the 2 who handed in their progress\n"));
+  EXPECT_THAT(ended.output, HasSubstr(" have them all; first passed after 0.5 h (median of 2)\n"));
   const std::string text = stats({"--json", "--deadlines", deadlines}).output;
   EXPECT_EQ(schemaFaultsOf(text, "dev_stats"), "");
   const Json one = Json::parse(text).at("exercises").at(0);
@@ -149,6 +161,7 @@ TEST_F(DevStatsTest, SaysWhenTheFirstFullScoreCameAndHowOftenStudentsHandedIn) {
   EXPECT_EQ(one.at("first_full").at("seconds_before_deadline"), 5600);
   EXPECT_EQ(one.at("attempts"),
             (Json{{"known", 2}, {"at_least", 1}, {"median", 3.5}, {"most", 5}, {"most_by", "adam"}}));
+  EXPECT_EQ(one.at("work"), (Json{{"known", 2}, {"median_hours", 3.5}}));
   EXPECT_THAT(stats({"--students"}).output,
               ::testing::StartsWith(
                   "student,exercise,points,possible,outcome,submitted,time_from,attempts,attempts_from\n"

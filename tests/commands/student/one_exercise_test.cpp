@@ -283,6 +283,20 @@ TEST_F(OneExercise, PrintsADebuggerCommand) {
   EXPECT_THAT(ended.output, ::testing::StartsWith("gdb -q -ex 'set cwd " + out().string() + "-solution' "));
 }
 
+TEST_F(OneExercise, SaysOnceThatItNotesTheWork) {
+  const auto tells = HasSubstr(
+      "From now on, rex notes in .rex/progress.json how long you work on each exercise, "
+      "and when its parts first pass. That stays on this machine unless you hand it in "
+      "with rex submit --progress.");
+  write(exercise() / "main.cpp", kGood);
+  EXPECT_THAT(flat(rex({"test", "98", "--main", exercise() / "main.cpp"}).output), Not(tells)) << "not noted";
+  EXPECT_THAT(flat(rex({"test", "98", "--check", "quarter-turn"}).output), tells);
+  EXPECT_THAT(flat(rex({"test", "98"}).output), Not(tells));
+  EXPECT_THAT(fileText(root() / ".rex" / "progress.json"), HasSubstr("\"first_passed\""));
+  fs::remove_all(root() / ".rex");
+  EXPECT_THAT(flat(rex({"test", "98", "--json"}).error), tells);
+}
+
 TEST_F(OneExercise, DebugsTheCallWithWhichACheckFails) {
   write(exercise() / "main.cpp", kGood);
   const Ended passes = rex({"debug", "98", "--check", "quarter-turn"});
