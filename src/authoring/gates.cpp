@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "authoring/handed_out.h"
 #include "authoring/killed_mutants.h"
 #include "authoring/pasted.h"
 #include "authoring/release.h"
@@ -305,6 +306,10 @@ GateResult releaseIsClean(const GateContext& context) {
   return kPassed;
 }
 
+GateResult isDescribed(const GateContext& context) {
+  return judge(missingDescriptions(context.root, context.exercise));
+}
+
 GateResult mainScoresFloor(const GateContext& context) {
   const GradeResult result = grade(context, context.exercise.folder / "main.cpp");
   if (!result.compile.diagnostics.empty())
@@ -504,43 +509,77 @@ GateResult variantsAreCaught(const GateContext& context) {
   return result;
 }
 
+// Which exercises have a gate: all, those that are not private, or those with wrong variants.
+enum class Scope { kAll, kPublic, kVariants };
+
+struct Gate {
+  const char* name;
+  GateResult (*run)(const GateContext&);
+  bool comparesTexts = false;
+  Scope scope = Scope::kAll;
+};
+
+constexpr std::array kGates = {Gate{"main-current", mainIsCurrent, true},
+                               Gate{"names", namesExist, true},
+                               Gate{"release", releaseIsClean, true},
+                               Gate{"handed-out", isDescribed, true, Scope::kPublic},
+                               Gate{"points", pointsAddUp},
+                               Gate{"evidence", mistakesAreShown, false, Scope::kPublic},
+                               Gate{"main-floor", mainScoresFloor},
+                               Gate{"mains", mainsRun},
+                               Gate{"solution", solutionIsFull},
+                               Gate{"sanitizers", solutionPassesSanitizers},
+                               Gate{"hostile", answersHurtNobody},
+                               Gate{"grown", growthGainsNothing},
+                               Gate{"liars", liarsGetNothing},
+                               Gate{"pasted", shownCodeGetsNothing},
+                               Gate{"mutants", mutantsAreKilled},
+                               Gate{"wrong", variantsAreCaught, false, Scope::kVariants}};
+
+constexpr std::string_view kOneVariant = "wrong/";
+
+const Gate* gateCalled(const std::string& name) {
+  const auto* const found =
+      std::find_if(kGates.begin(), kGates.end(), [&](const Gate& gate) { return gate.name == name; });
+  return found == kGates.end() ? nullptr : found;
+}
+
 }  // namespace
 
 std::vector<std::string> gateNames(const submission::ExerciseInfo& exercise) {
-  std::vector<std::string> names = {"main-current", "points", "names",    "release",    "evidence",
-                                    "main-floor",   "mains",  "solution", "sanitizers", "hostile",
-                                    "grown",        "liars",  "pasted",   "mutants"};
-  if (std::filesystem::exists(exercise.folder / "wrong.cpp")) names.emplace_back("wrong");
+  std::vector<std::string> names;
+  for (const Gate& gate : kGates) {
+    const bool applies = gate.scope == Scope::kPublic     ? !exercise.isPrivate
+                         : gate.scope == Scope::kVariants ? fs::exists(exercise.folder / "wrong.cpp")
+                                                          : true;
+    if (applies) names.emplace_back(gate.name);
+  }
   return names;
 }
 
-GateResult runGate(const GateContext& context, const std::string& gate) {
-  constexpr std::string_view kOneVariant = "wrong/";
-  std::vector<std::string> names = gateNames(context.exercise);
-  for (const std::string& variant : variantNames(context.exercise))
+bool comparesTexts(const std::string& gate) {
+  const Gate* const found = gateCalled(gate);
+  return found != nullptr && found->comparesTexts;
+}
+
+void requireGate(const submission::ExerciseInfo& exercise, const std::string& gate) {
+  std::vector<std::string> names = gateNames(exercise);
+  for (const std::string& variant : variantNames(exercise))
     names.push_back(std::string(kOneVariant) + variant);
-  if (std::find(names.begin(), names.end(), gate) == names.end())
-    throw UsageError({.what = fmt::format("{} has no gate '{}'", context.exercise.name, gate),
-                      .nearest = nearestNames(gate, names)});
-  const std::map<std::string, GateResult (*)(const GateContext&)> gates = {
-      {"main-current", mainIsCurrent},
-      {"points", pointsAddUp},
-      {"names", namesExist},
-      {"release", releaseIsClean},
-      {"evidence", mistakesAreShown},
-      {"main-floor", mainScoresFloor},
-      {"mains", mainsRun},
-      {"solution", solutionIsFull},
-      {"sanitizers", solutionPassesSanitizers},
-      {"hostile", answersHurtNobody},
-      {"grown", growthGainsNothing},
-      {"liars", liarsGetNothing},
-      {"pasted", shownCodeGetsNothing},
-      {"mutants", mutantsAreKilled},
-      {"wrong", variantsAreCaught}};
+  if (std::find(names.begin(), names.end(), gate) != names.end()) return;
+  const Gate* const found = gateCalled(gate);
+  if (found != nullptr && found->scope == Scope::kPublic)
+    throw UsageError({.what = fmt::format("the gate {} does not apply to {}", gate, exercise.name),
+                      .found = "profile = \"private\" in its exercise.toml"});
+  throw UsageError({.what = fmt::format("{} has no gate '{}'", exercise.name, gate),
+                    .nearest = nearestNames(gate, names)});
+}
+
+GateResult runGate(const GateContext& context, const std::string& gate) {
+  requireGate(context.exercise, gate);
   try {
     return gate.starts_with(kOneVariant) ? judge(whyNotCaught(context, gate.substr(kOneVariant.size())))
-                                         : gates.at(gate)(context);
+                                         : gateCalled(gate)->run(context);
   } catch (const Error& error) {
     return failed(error.what());
   }

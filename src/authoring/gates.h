@@ -30,7 +30,7 @@ struct DeadName {
 struct GateContext {
   std::filesystem::path root;  ///< of the project
   submission::ExerciseInfo exercise;
-  submission::Toolchain toolchain;
+  submission::Toolchain toolchain;   ///< not for comparesTexts()
   std::filesystem::path workFolder;  ///< empty and writable
   int seeds = 3;                     ///< number of seeds to grade the solution with: 1, 2, ...
   std::filesystem::path sheet{};     ///< where gate wrong puts the pictures of failed checks; empty: nowhere
@@ -46,12 +46,19 @@ struct GateResult {
   std::string note{};     ///< another remark of one line; empty: none
 };
 
-/// The gates of an exercise in order: main-current, points, names, release, evidence, main-floor, mains,
-/// solution, sanitizers, hostile, grown, liars, pasted, mutants, and, if there is wrong.cpp, wrong.
+/// The gates of an exercise in order: first those that compare texts, main-current, names, release and
+/// handed-out, then points, evidence, main-floor, mains, solution, sanitizers, hostile, grown, liars, pasted,
+/// mutants, and, if there is wrong.cpp, wrong. A private exercise has neither handed-out nor evidence.
 [[nodiscard]] std::vector<std::string> gateNames(const submission::ExerciseInfo& exercise);
 
+/// Whether a gate compares texts only, so that it needs no toolchain.
+[[nodiscard]] bool comparesTexts(const std::string& gate);
+
+/// Throws UsageError if the exercise has no such gate, be it one of gateNames() or wrong/NAME.
+void requireGate(const submission::ExerciseInfo& exercise, const std::string& gate);
+
 /// Runs one gate on the exercise. The gate wrong/NAME tests a single variant by itself, which takes longer
-/// and proves more: see whyNotCaughtTogether(). Throws Error for an unknown gate; malformed files of the
+/// and proves more: see whyNotCaughtTogether(). Throws as requireGate(); malformed files of the
 /// exercise fail the gate.
 [[nodiscard]] GateResult runGate(const GateContext& context, const std::string& gate);
 

@@ -78,14 +78,16 @@ int ExerciseInfo::points() const {
 ExerciseInfo readExerciseInfo(const path& folder) {
   const path file = folder / "exercise.toml";
   const TomlTable top = TomlTable::read(file, "the exercise", "the description of an exercise");
-  top.refuseKeysBut(
-      {"title", "script", "chapter", "needs", "hours", "solution", "allowed", "limits", "part", "forbidden"});
+  top.refuseKeysBut({"title", "profile", "script", "chapter", "needs", "hours", "solution", "allowed",
+                     "limits", "part", "forbidden"});
 
   ExerciseInfo info;
   info.folder = info.definition = folder;
   info.name = folder.filename().string();
   info.title = top.text("title");
-  info.script = top.text("script");
+  if (top.has("profile"))
+    info.isPrivate = top.choice<bool>("profile", {{"private", true}, {"public", false}});
+  if (!info.isPrivate || top.has("script")) info.script = top.text("script");
   if (top.has("chapter")) info.chapter = top.integer("chapter", 1, 99);
   if (top.has("needs")) info.needs = top.texts("needs");
   if (top.has("hours")) info.hours = top.integer("hours", 1, 99);

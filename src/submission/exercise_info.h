@@ -40,7 +40,8 @@ struct ExerciseInfo {
   std::filesystem::path
       definition;  ///< the same, or the folder of an installed rex that says what is demanded
   std::string title;
-  std::string script;              ///< section of the course script
+  bool isPrivate = false;          ///< of one lecturer: nothing of the course describes it
+  std::string script;              ///< section of the course script; empty only if private
   int chapter = 0;                 ///< of the script; 0: none
   std::vector<std::string> needs;  ///< numbers of the exercises that it builds on: "01"
   int hours = 0;                   ///< of a student's work; 0: not said

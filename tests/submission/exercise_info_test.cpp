@@ -101,7 +101,7 @@ TEST_F(ExerciseInfoTest, RefusesBadFilesWithPlaceAndAdvice) {
   EXPECT_REX_ERROR(read("title = \"x\"\nscript = \n"), "exercise.toml:2:");
   EXPECT_REX_ERROR(
       readWith("title = \"Kin", "titel = \"Kin"),
-      "exercise.toml:1:1: unknown key 'titel' in the exercise: wanted one of title, script, "
+      "exercise.toml:1:1: unknown key 'titel' in the exercise: wanted one of title, profile, script, "
       "chapter, needs, hours, solution, allowed, limits, part, forbidden (did you mean 'title'?)");
   EXPECT_REX_ERROR(readWith("memory_mb", "memory"), "exercise.toml:6:1: unknown key 'memory' in [limits]");
   EXPECT_REX_ERROR(readWith("floor = 1", "flor = 1"), "exercise.toml:19:1: unknown key 'flor' in [[part]]");
@@ -117,6 +117,10 @@ TEST_F(ExerciseInfoTest, RefusesBadFilesWithPlaceAndAdvice) {
                    "[[part]]: 'floor': found 5, wanted a whole number from 0 to 4");
   EXPECT_REX_ERROR(readWith("[limits]", "solution = \"later\"\n[limits]"),
                    "the exercise: 'solution': found 'later', wanted one of never, after-pass, always");
+  EXPECT_REX_ERROR(readWith("[limits]", "profile = \"own\"\n[limits]"),
+                   "the exercise: 'profile': found 'own', wanted one of private, public");
+  EXPECT_REX_ERROR(readWith("script = \"12.3\"", "profile = \"public\""), "the exercise: no 'script'");
+  EXPECT_TRUE(readWith("script = \"12.3\"", "profile = \"private\"").isPrivate);
   EXPECT_REX_ERROR(readWith("2.5", "-1"), "[limits]: 'cpu_seconds': found -1, wanted a number above 0");
   EXPECT_REX_ERROR(readWith("2.5", "nan"), "[limits]: 'cpu_seconds': found nan, wanted a number above 0");
   EXPECT_REX_ERROR(readWith("[\"What moves?\", \"Which axis?\"]", "[1]"),

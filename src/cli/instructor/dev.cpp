@@ -1,5 +1,6 @@
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -12,13 +13,19 @@ namespace rex::cli {
 namespace {
 
 void addDevNew(CLI::App* dev, Action& action) {
-  const auto name = std::make_shared<std::string>();
-  CLI::App* command = addVerb(dev, "new", "Make a new exercise that passes its own gates",
-                              "Example: scripts/rex dev new 99-demo");
-  command->add_option("NAME", *name, "two digits (and a letter), a dash, a topic: 99-demo")
+  const auto words = std::make_shared<std::pair<std::string, std::string>>();
+  CLI::App* command =
+      addVerb(dev, "new", "Make a new exercise",
+              "Examples:\n  scripts/rex dev new 99-demo                  a small one that passes its gates\n"
+              "  scripts/rex dev new 19-handEye exercise.h    the frame of one with these functions");
+  command->add_option("NAME", words->first, "two digits (and a letter), a dash, a topic: 99-demo")
       ->type_name("")
       ->required();
-  command->callback([&action, name] { action = [name](const Project& p) { return devNew(p, *name); }; });
+  command->add_option("HEADER", words->second, "an exercise.h with comments for the functions")
+      ->type_name("");
+  command->callback([&action, words] {
+    action = [words](const Project& p) { return devNew(p, words->first, words->second); };
+  });
 }
 
 void addDevCheck(CLI::App* dev, Action& action) {

@@ -17,8 +17,8 @@ namespace rex::cli {
 /// Throws UsageError if this rex is installed: `command` works on the files that a course is made from.
 void requireSourceTree(const Project& project, const std::string& command);
 
-/// Makes a new exercise from the template.
-ExitCode devNew(const Project& project, const std::string& name);
+/// Makes a new exercise: for the exercise.h `header`, or the template if that is empty.
+ExitCode devNew(const Project& project, const std::string& name, const std::filesystem::path& header);
 
 struct CheckOptions {
   std::string exercise{};               ///< empty: all

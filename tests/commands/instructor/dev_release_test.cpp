@@ -93,7 +93,7 @@ TEST_F(DevReleaseTest, TakesTheSecretOfTheCourseAndLeavesItsRoster) {
 // They would write into the installation, or find nothing there to look for.
 TEST(DevVerbs, NeedTheSourceTree) {
   const Project installed{.root = "course", .build = "lib", .installed = "share"};
-  EXPECT_REX_ERROR(devNew(installed, "96-mine"), "rex dev new needs the source tree of rex");
+  EXPECT_REX_ERROR(devNew(installed, "96-mine", {}), "rex dev new needs the source tree of rex");
   EXPECT_REX_ERROR(devStrip(installed, "98"), "rex dev strip needs the source tree of rex");
   EXPECT_REX_ERROR(devCheck(installed, {}), "rex dev check needs the source tree of rex");
   EXPECT_REX_ERROR(devRelease(installed, {.out = "out"}), "rex dev release needs the source tree of rex");

@@ -16,6 +16,7 @@ namespace rex::cli::gates_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 class ExerciseGates : public BuiltProject {
  protected:
@@ -37,8 +38,10 @@ TEST_F(ExerciseGates, PassesTheTemplateThroughAllGates) {
   EXPECT_EQ(ended.code, 0) << ended.output << ended.error;
   const std::string gates = rex({"dev", "check", "98", "--list-gates"}).output;
   EXPECT_EQ(gates,
-            "main-current\npoints\nnames\nrelease\nevidence\nmain-"
-            "floor\nmains\nsolution\nsanitizers\nhostile\ngrown\nliars\npasted\nmutants\nwrong\n");
+            "main-current\nnames\nrelease\npoints\nmain-floor\nmains\nsolution\nsanitizers\nhostile\n"
+            "grown\nliars\npasted\nmutants\nwrong\n");
+  EXPECT_THAT(ended.output, StartsWith("98-template is private, as its exercise.toml says: the gates "
+                                       "handed-out and evidence do not\napply"));
 }
 
 TEST_F(ExerciseGates, TestsOneVariant) {
@@ -116,6 +119,11 @@ TEST_F(ExerciseGates, FindsMistakesThatAreNotCaught) {
   replace(exercise() / "wrong.cpp", "shown by: quarter-turn", "shown by: keeps-length");
   replace(exercise() / "wrong.cpp", "keeps-lenght", "quarter-turn");
   expectOpenGate("wrong/clockwise", "check 'keeps-length' leaves no picture");
+  const Ended isPrivate = rex({"dev", "check", "98", "--gate", "evidence"});
+  EXPECT_EQ(isPrivate.code, 64);
+  EXPECT_THAT(flat(isPrivate.error), HasSubstr("the gate evidence does not apply to 98-template: found "
+                                               "profile = \"private\" in its exercise.toml"));
+  replace(exercise() / "exercise.toml", "\"private\"", "\"public\"");
   replace(exercise() / "wrong.cpp", "// shown by: keeps-length\n", "");
   expectOpenGate("evidence", "no wrong variant names a check that shows its mistake");
   const std::string wrong = fileText(exercise() / "wrong.cpp");
@@ -151,14 +159,14 @@ TEST_F(ExerciseGates, RunsTheChosenGatesAndPrintsThemAsJson) {
   EXPECT_EQ(ended.code, 0) << ended.error;
   EXPECT_EQ(
       ended.output,
-      "{\"gates\":[{\"exercise\":\"98-template\",\"gate\":\"points\",\"passed\":true,\"message\":\"\","
-      "\"note\":\"\"},{\"exercise\":\"98-template\",\"gate\":\"names\",\"passed\":true,\"message\":\"\","
+      "{\"gates\":[{\"exercise\":\"98-template\",\"gate\":\"names\",\"passed\":true,\"message\":\"\","
+      "\"note\":\"\"},{\"exercise\":\"98-template\",\"gate\":\"points\",\"passed\":true,\"message\":\"\","
       "\"note\":\"\"}],\"blocked\":[]}\n");
   EXPECT_EQ(schemaFaultsOf(ended.output, "dev_check"), "");
   EXPECT_EQ(schemaFaultsOf("{\"gates\": [], \"blokced\": []}", "dev_check").empty(), false);
   const std::string names = rex({"dev", "check", "98", "--list-gates", "--json"}).output;
   EXPECT_EQ(schemaFaultsOf(names, "dev_check_gates"), "");
-  EXPECT_THAT(names, HasSubstr("{\"98-template\":[\"main-current\",\"points\","));
+  EXPECT_THAT(names, HasSubstr("{\"98-template\":[\"main-current\",\"names\","));
 }
 
 TEST_F(ExerciseGates, ABrokenDescriptionFailsItsOwnExerciseOnly) {
@@ -187,6 +195,23 @@ TEST_F(ExerciseGates, MakesANewExercise) {
     EXPECT_EQ(bad.code, 64) << name;
     EXPECT_THAT(bad.error, HasSubstr("not a name for an exercise")) << name;
   }
+}
+
+TEST_F(ExerciseGates, MakesAnExerciseForAHeader) {
+  fs::copy_file(sourcePath("tests/authoring/made/exercise.h"), root() / "mine.h");
+  const Ended made = rex({"dev", "new", "97-made", (root() / "mine.h").string()});
+  EXPECT_EQ(made.code, 0) << made.error;
+  EXPECT_EQ(fileText(root() / "exercises/CMakeLists.txt"),
+            "rex_exercise(97-made FUNCTIONS turned angles isStill posed longest)\n");
+  for (const std::string file :
+       {"README.md", "exercise.toml", "solution.cpp", "main.cpp", "show.cpp", "check.cpp"})
+    EXPECT_EQ(fileText(root() / "exercises/97-made" / file),
+              fileText(sourcePath("tests/authoring/made/" + file)));
+  write(root() / "mine.h", "#include \"course/course.h\"\nvoid turn(double angle);\n");
+  const Ended bad = rex({"dev", "new", "96-bad", (root() / "mine.h").string()});
+  EXPECT_THAT(flat(bad.error),
+              HasSubstr("mine.h:2:1: the value of turn: found 'void', wanted the type of a value"));
+  EXPECT_FALSE(fs::exists(root() / "exercises/96-bad"));
 }
 
 TEST_F(ExerciseGates, SaysWhereTheReleaseOfEarlierVersionsWent) {
