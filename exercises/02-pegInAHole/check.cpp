@@ -159,8 +159,7 @@ void interpolates(Check& check, Student& student) {
   for (int i = 0; i <= 10; ++i) {
     const double s = i / 10.;
     check.near("sineProfile(" + std::to_string(s).substr(0, 3) + ")", student.sineProfile(s),
-               (1 - std::cos(std::numbers::pi * s)) / 2, 1e-9,
-               {{"Is it a ramp?", Eigen::MatrixXd::Constant(1, 1, s)}});
+               (1 - std::cos(std::numbers::pi * s)) / 2, 1e-9);
   }
   Rng& rng = check.rng();
   const int n = 2 + rng.index(6), T = 10 + rng.index(20);
@@ -171,12 +170,6 @@ void interpolates(Check& check, Student& student) {
   Motion wanted;
   for (int t = 1; t <= T; ++t)
     wanted.emplace_back(q0 + (1 - std::cos(std::numbers::pi * t / T)) / 2 * (qT - q0));
-  Eigen::MatrixXd got(T, n), right(T, n);
-  for (int t = 0; t < T; ++t) {
-    got.row(t) = motion[static_cast<std::size_t>(t)].transpose();
-    right.row(t) = wanted[static_cast<std::size_t>(t)].transpose();
-  }
-  const auto usual = check.suspectUsualMistake(got, right, 1e-9);
   check.nearAlong("posture of jointSpaceMotion", grading::overSteps(motion), wanted, 1e-9, "rad");
 }
 

@@ -69,39 +69,6 @@ inline rex::grading::Evidence seen(const rex::Simulator& S, const std::string& b
   return {.film = std::move(film)};
 }
 
-/// The precisions of the three tasks.
-struct Precisions {
-  double circle = 1e4, pointing = 100, home = 0.01;
-};
-
-// The posture after the first step, if the circle were at t and the tasks had those precisions.
-inline Eigen::VectorXd firstPosture(const rex::Simulator& S, const Circle& circle, int t,
-                                    const Precisions& of = {}) {
-  const Eigen::VectorXd now = S.getJointAngles();
-  const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(now.size(), now.size());
-  const Eigen::Vector3d there =
-      circle.center + circle.radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
-  return now +
-         weightedStep({{S.kinematicsPos(circle.hand) - there, S.jacobianPos(circle.hand), of.circle},
-                       {S.kinematicsVec(circle.pointing) - kUp, S.jacobianVec(circle.pointing), of.pointing},
-                       {Eigen::VectorXd::Zero(now.size()), I, of.home}},
-                      I);
-}
-
-// Whether the first step is that of precisions in another order.
-inline std::string questionAboutPrecisions(const rex::Simulator& S, const Circle& circle,
-                                           const Motion& motion) {
-  const auto isThatOf = [&](const Precisions& of) {
-    return (motion.front() - firstPosture(S, circle, 1, of)).cwiseAbs().maxCoeff() < 1e-7;
-  };
-  const std::string are = " are 1e4 for the circle, 100 for pointing, 0.01 for home.";
-  if (isThatOf({1e4, 0.01, 100})) return "Are the precisions of pointing and of home exchanged? They" + are;
-  if (isThatOf({100, 1e4, 0.01}))
-    return "Are the precisions of the circle and of pointing exchanged? They" + are;
-  if (isThatOf({0.01, 100, 1e4})) return "Are the precisions of the circle and of home exchanged? They" + are;
-  return "";
-}
-
 // 2e-4 m is usual: the home task pulls the hand off its circle in proportion to the precisions.
 inline void tracks(rex::grading::Check& check, const rex::Simulator& S, const Circle& circle,
                    const Motion& motion, double most = 2e-3) {
@@ -116,15 +83,6 @@ inline void tracks(rex::grading::Check& check, const rex::Simulator& S, const Ci
     for (int t = 0; t < 126; ++t) path.push_back(wanted(t));
     return seen(S, circle.hand, motion, path);
   });
-  const auto strong = check.suspect("Is home as precise as the circle? Its precision is 0.01.",
-                                    firstPosture(S, circle, 1, {.home = 1e4}));
-  const auto early =
-      check.suspect("Does the circle begin at t = 0? The first step is t = 1.", firstPosture(S, circle, 0));
-  const auto late =
-      check.suspect("Does the circle begin at t = 2? The first step is t = 1.", firstPosture(S, circle, 2));
-  const auto usual = check.suspectUsualMistake(motion.front(), firstPosture(S, circle, 1), 1e-7);
-  const std::string question = questionAboutPrecisions(S, circle, motion);
-  const auto exchanged = check.ask(question);
   check.atMostAlong("distance of " + circle.hand + " from its point on the circle, in circleWithTasks",
                     along(S, motion, 20, error), most, "m");
 }
@@ -139,7 +97,6 @@ inline void staysAtHome(rex::grading::Check& check, const rex::Simulator& S, con
     evidence.film = rex::grading::withWanted(evidence.film, rex::makeFilm(S, Motion{atFirst}, {}));
     return evidence;
   });
-  const auto moves = check.ask("Is home the posture before the first step, in every step?", true);
   check.atMostAlong("largest deviation of a joint from its home angle, in circleWithTasks",
                     along(S, motion, 1, away), 2.2, "rad");
 }
@@ -149,10 +106,6 @@ inline void pointsUpwards(rex::grading::Check& check, const rex::Simulator& S, c
   const auto axis = [&](const rex::Simulator& moved, int) { return moved.kinematicsVec(circle.pointing); };
   const rex::grading::Signal got = along(S, motion, 100, axis);
   const auto shown = check.show([&] { return seen(S, circle.pointing, motion); });
-  const auto sign = check.ask("Is the error the sum of both directions? It is their difference.",
-                              (got.values.front() + kUp).norm() < 0.05);
-  const std::string question = questionAboutPrecisions(S, circle, motion);
-  const auto exchanged = check.ask(question);
   check.nearAlong("z axis of " + circle.pointing + ", in circleWithTasks", got,
                   Motion(got.values.size(), kUp), 0.05);
 }

@@ -3,9 +3,28 @@
 
 // <variant metric_forgotten> caught by: inverse, nullspace-any-size
 // mistake: All joints cost the same, whatever W says.
+// ask: Is W missing?
 // <solution regularisedInverse>
 const Eigen::MatrixXd same = Eigen::MatrixXd::Identity(W.rows(), W.cols());
 return solve(precision * J.transpose() * J + same, precision* J.transpose());
+
+// <variant metric_inverted> caught by: inverse, nullspace-any-size
+// mistake: divides by what joints cost.
+// ask: Is it the inverse of W?
+// <solution regularisedInverse>
+return solve(precision * J.transpose() * J + inverse(W), precision* J.transpose());
+
+// <variant precision_forgotten> caught by: inverse, nullspace-any-size
+// mistake: Every task is as precise as one.
+// ask: Is the precision missing?
+// <solution regularisedInverse>
+return solve(J.transpose() * J + W, J.transpose());
+
+// <variant precision_inverted> caught by: inverse, nullspace-any-size
+// mistake: takes the precision for a variance.
+// ask: Is the precision taken for its inverse?
+// <solution regularisedInverse>
+return solve(J.transpose() * J + precision * W, J.transpose());
 
 // <variant absolute_limit> caught by: projector
 // mistake: Singular values below a thousandth count as zero, however small the others are.
@@ -26,10 +45,41 @@ return W - regularisedInverse(J, W, 1e9) * J;
 
 // <variant precision_squared> caught by: stack
 // mistake: The tasks are multiplied by their precisions instead of the square roots of them.
+// ask: Is the cost the square of precision * error? It is precision * |error|^2.
 // <solution multiTaskStep>
 // in place of: A += task.precision * task.J.transpose() * task.J; ... b -= task.precision *
 A += task.precision * task.precision * task.J.transpose() * task.J;
 b -= task.precision * task.precision * task.J.transpose() * task.error;
+
+// <variant precision_rooted> caught by: stack
+// mistake: The square root of the precision is the factor of the squared error.
+// ask: Is the root of the precision the factor of a squared error?
+// <solution multiTaskStep>
+// in place of: A += task.precision * task.J.transpose() * task.J; ... b -= task.precision *
+A += std::sqrt(task.precision) * task.J.transpose() * task.J;
+b -= std::sqrt(task.precision) * task.J.transpose() * task.error;
+
+// <variant precisions_forgotten> caught by: stack
+// mistake: All tasks are equally precise.
+// ask: Are the precisions missing?
+// <solution multiTaskStep>
+// in place of: A += task.precision * task.J.transpose() * task.J; ... b -= task.precision *
+A += task.J.transpose() * task.J;
+b -= task.J.transpose() * task.error;
+
+// <variant stack_without_metric> caught by: stack
+// mistake: All joints cost the same in the stack of tasks.
+// ask: Is W missing?
+// <solution multiTaskStep>
+// in place of: Eigen::MatrixXd A = W;
+Eigen::MatrixXd A = Eigen::MatrixXd::Identity(W.rows(), W.cols());
+
+// <variant errors_grow> caught by: stack
+// mistake: steps away from the minimum.
+// ask: Does the step have the wrong sign? It should make the errors smaller.
+// <solution multiTaskStep>
+// in place of: b -= task.precision * task.J.transpose() * task.error;
+b += task.precision * task.J.transpose() * task.error;
 
 // <variant home_is_zero> caught by: circle-other-hand
 // mistake: Home is zero, whatever posture the robot starts in.
@@ -48,6 +98,7 @@ for (int t = 1; t <= T; ++t) {
 // <variant home_moves_along> caught by: circle-home
 // shown by: circle-home
 // mistake: reads the home posture in each step, so it is always the current one.
+// ask: Is home the posture before the first step, in every step?
 // <solution circleWithTasks>
 for (int t = 1; t <= T; ++t) {
   const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
@@ -62,6 +113,7 @@ for (int t = 1; t <= T; ++t) {
 
 // <variant home_too_strong> caught by: circle-home
 // mistake: With the precision of the circle, home holds the hand back.
+// ask: Is home as precise as the circle? Its precision is 0.01.
 // <solution circleWithTasks>
 const Eigen::VectorXd home = S.getJointAngles();
 for (int t = 1; t <= T; ++t) {
@@ -76,6 +128,7 @@ for (int t = 1; t <= T; ++t) {
 
 // <variant only_points> caught by: circle-home, circle-points, circle-other-hand
 // mistake: One hand points upwards; the other is not moved round its circle.
+// ask: Which of the tasks moves the hand round its circle?
 // <solution circleWithTasks>
 for (int t = 0; t < T; ++t) {
   const Eigen::VectorXd gap = Eigen::Vector3d::UnitZ() - S.kinematicsVec(pointing);
@@ -85,6 +138,7 @@ for (int t = 0; t < T; ++t) {
 
 // <variant points_downwards> caught by: circle-points
 // mistake: A sign: the sum of the two directions is zero when they are opposite.
+// ask: Is the error the sum of both directions? It is their difference.
 // <solution circleWithTasks>
 const Eigen::VectorXd home = S.getJointAngles();
 for (int t = 1; t <= T; ++t) {
@@ -99,18 +153,57 @@ for (int t = 1; t <= T; ++t) {
 
 // <variant precisions_exchanged> caught by: circle-home, circle-points
 // mistake: the precisions of pointing and home are exchanged.
+// ask: Are the precisions of pointing and of home exchanged? They are 1e4 for the circle, 100 for pointing,
+// ask: 0.01 for home.
 // <solution circleWithTasks>
 // in place of: const TaskTerm up{S.kinematicsVec(pointing) - ... const TaskTerm stayAtHome{q - home, W,
 const TaskTerm up{S.kinematicsVec(pointing) - Eigen::Vector3d::UnitZ(), S.jacobianVec(pointing), 0.01};
 const TaskTerm stayAtHome{q - home, W, 100};
 
+// <variant pointing_before_the_circle> caught by: circle-home
+// mistake: the precisions of the circle and of pointing are exchanged.
+// ask: Are the precisions of the circle and of pointing exchanged? They are 1e4 for the circle, 100 for
+// ask: pointing, 0.01 for home.
+// <solution circleWithTasks>
+// in place of: const TaskTerm circle{ ... const TaskTerm up{
+const TaskTerm circle{S.kinematicsPos(hand) - wanted, S.jacobianPos(hand), 100};
+const TaskTerm up{S.kinematicsVec(pointing) - Eigen::Vector3d::UnitZ(), S.jacobianVec(pointing), 1e4};
+
+// <variant home_before_the_circle> caught by: circle-home
+// mistake: the precisions of the circle and of home are exchanged.
+// ask: Are the precisions of the circle and of home exchanged? They are 1e4 for the circle, 100 for pointing,
+// ask: 0.01 for home.
+// <solution circleWithTasks>
+// in place of: const TaskTerm circle{S.kinematicsPos(hand) - wanted, S.jacobianPos(hand), 1e4};
+const TaskTerm circle{S.kinematicsPos(hand) - wanted, S.jacobianPos(hand), 0.01};
+// in place of: const TaskTerm stayAtHome{q - home, W, 0.01};
+const TaskTerm stayAtHome{q - home, W, 1e4};
+
+// <variant circle_a_step_late> caught by: circle-home
+// mistake: The first step is that of t = 0.
+// ask: Does the circle begin at t = 0? The first step is t = 1.
+// <solution circleWithTasks>
+// in place of: const Eigen::Vector3d wanted = center + radius *
+const Eigen::Vector3d wanted =
+    center + radius * Eigen::Vector3d(std::cos((k - 1) / 20.), 0, std::sin((k - 1) / 20.));
+
+// <variant circle_a_step_early> caught by: circle-home
+// mistake: The first step is that of t = 2.
+// ask: Does the circle begin at t = 2? The first step is t = 1.
+// <solution circleWithTasks>
+// in place of: const Eigen::Vector3d wanted = center + radius *
+const Eigen::Vector3d wanted =
+    center + radius * Eigen::Vector3d(std::cos((k + 1) / 20.), 0, std::sin((k + 1) / 20.));
+
 // <variant ramp_profile> caught by: interpolation, peg-straight
 // mistake: A ramp instead of the sine: it starts and stops with a jerk.
+// ask: Is it a ramp?
 // <solution sineProfile>
 return s;
 
 // <variant stops_one_step_early> caught by: interpolation
 // mistake: Counting from zero, the motion begins with its start and never arrives.
+// ask: Does the motion begin with its start? Then it never arrives.
 // <solution jointSpaceMotion>
 for (int t = 0; t < T; ++t) postures.push_back(q0 + sineProfile(static_cast<double>(t) / T) * (qT - q0));
 
@@ -236,21 +329,87 @@ return multiTaskStep({TaskTerm{-dy1, J1, 1e4}, TaskTerm{-dy2, J2, 1}}, W);
 
 // <variant limits_without_margin> caught by: sums, other-robots
 // mistake: Only joints beyond their limits cost anything.
+// ask: Does the cost begin at the limits? It begins a margin before them.
 // <solution jointLimits>
 // in place of: const double below = margin - q[i] + low[i], above = margin + q[i] - high[i];
 const double below = low[i] - q[i], above = q[i] - high[i];
 
 // <variant upper_limit_pulls> caught by: sums, other-robots
 // mistake: J has the same sign at both limits, so it pulls joints towards their upper ones.
+// ask: Does y fall with q near an upper limit? There the sign is another one.
 // <solution jointLimits>
 // in place of: J(0, i) += 1 / margin;
 J(0, i) -= 1 / margin;
 
 // <variant wrong_way_at_the_upper_limit> caught by: sums, other-robots
 // mistake: The distance to an upper limit has the wrong sign.
+// ask: Is the distance to an upper limit q - q_hi? It is q_hi - q.
 // <solution jointLimits>
 // in place of: const double below = margin - q[i] + low[i], above = margin + q[i] - high[i];
 const double below = margin - q[i] + low[i], above = margin - q[i] + high[i];
+
+// <variant limits_not_divided> caught by: sums, other-robots
+// mistake: The cost is an angle, and not a share of the margin.
+// ask: Is it not divided by the margin?
+// <solution jointLimits>
+// in place of: y[0] += below / margin; ... J(0, i) -= 1 / margin;
+y[0] += below;
+J(0, i) -= 1;
+// in place of: y[0] += above / margin; ... J(0, i) += 1 / margin;
+y[0] += above;
+J(0, i) += 1;
+
+// <variant slopes_not_divided> caught by: sums, other-robots
+// mistake: The margin is in y, but not in J.
+// ask: Is J not divided by the margin?
+// <solution jointLimits>
+// in place of: J(0, i) -= 1 / margin;
+J(0, i) -= 1;
+// in place of: J(0, i) += 1 / margin;
+J(0, i) += 1;
+
+// <variant lower_limit_pushes> caught by: sums, other-robots
+// mistake: J has the same sign at both limits, so it drives joints towards their lower ones.
+// ask: Does y grow with q near a lower limit? There the sign is another one.
+// <solution jointLimits>
+// in place of: J(0, i) -= 1 / margin;
+J(0, i) += 1 / margin;
+
+// <variant margin_makes_room> caught by: sums, other-robots
+// mistake: The cost begins a margin behind the limits.
+// ask: Does the margin make the ranges wider? It makes them narrower.
+// <solution jointLimits>
+// in place of: const double below = margin - q[i] + low[i], above = margin + q[i] - high[i];
+const double below = low[i] - q[i] - margin, above = q[i] - high[i] - margin;
+
+// <variant lower_limits_only> caught by: sums, other-robots
+// mistake: Joints have no upper limits.
+// ask: Do the lower limits count only?
+// <solution jointLimits>
+// in place of: if (above > 0) { ... }
+
+// <variant upper_limits_only> caught by: sums, other-robots
+// mistake: Joints have no lower limits.
+// ask: Do the upper limits count only?
+// <solution jointLimits>
+// in place of: if (below > 0) { ... }
+
+// <variant limits_far_away> caught by: sums, other-robots
+// mistake: All joints count, however far from their limits.
+// ask: Do joints far from their limits count, too? Negative numbers in brackets count as zero.
+// <solution jointLimits>
+for (Eigen::Index i = 0; i < q.size(); ++i) y[0] += (2 * margin + low[i] - high[i]) / margin;
+
+// <variant limits_squared> caught by: sums, other-robots
+// mistake: The cost is a square, as that of a task.
+// ask: Are the brackets squared?
+// <solution jointLimits>
+// in place of: y[0] += below / margin; ... J(0, i) -= 1 / margin;
+y[0] += below * below / margin;
+J(0, i) -= 2 * below / margin;
+// in place of: y[0] += above / margin; ... J(0, i) += 1 / margin;
+y[0] += above * above / margin;
+J(0, i) += 2 * above / margin;
 
 // <variant asks_for_the_centre> caught by: forbidden-call
 // mistake: The simulator knows the centre of mass, so nothing was learnt.
@@ -260,6 +419,7 @@ J.topRows(2) = S.jacobianCOM();
 
 // <variant centre_in_kg_m> caught by: sums, other-robots
 // mistake: The sum of slide 2:61 as printed: not divided by the mass.
+// ask: Is it in kg m, as on the slide? Divide by the total mass.
 // <solution massCenter>
 for (const BodyMass& one : masses) {
   y += one.mass * S.kinematicsPos(one.body, one.center);
@@ -269,6 +429,7 @@ for (const BodyMass& one : masses) {
 // <variant masses_forgotten> caught by: sums, other-robots
 // shown by: sums
 // mistake: All bodies weigh the same.
+// ask: Do heavy bodies count as much as light ones? Where are the masses?
 // <solution massCenter>
 // in place of: y += one.mass * S.kinematicsPos(one.body, one.center); ... total += one.mass;
 y += S.kinematicsPos(one.body, one.center);
@@ -277,13 +438,30 @@ total += 1;
 
 // <variant origins_for_centres> caught by: sums, other-robots
 // mistake: The masses are at the origins of the bodies.
+// ask: Are these the origins of the bodies? A centre of mass may lie elsewhere in its body.
 // <solution massCenter>
 // in place of: y += one.mass * S.kinematicsPos(one.body, one.center); ... J += one.mass *
 y += one.mass * S.kinematicsPos(one.body);
 J += one.mass * S.jacobianPos(one.body);
 
+// <variant centre_by_count> caught by: sums, other-robots
+// mistake: divides by the number of bodies instead of their mass.
+// ask: Is it divided by the number of bodies? Divide by the total mass.
+// <solution massCenter>
+// in place of: total += one.mass;
+total += 1;
+
+// <variant centres_not_turned> caught by: sums, other-robots
+// mistake: adds the centres to the origins, as if no body had turned.
+// ask: Are the centres of mass added to the origins as they are? They are given in the frames of the bodies.
+// <solution massCenter>
+// in place of: y += one.mass * S.kinematicsPos(one.body, one.center); ... J += one.mass *
+y += one.mass * (S.kinematicsPos(one.body) + one.center);
+J += one.mass * S.jacobianPos(one.body);
+
 // <variant frame_does_not_turn> caught by: frames, other-robots
 // mistake: Of the frame, only the point moves; the change of its axes is left out.
+// ask: Is the frame taken to move without turning? When it turns, its axes do, too.
 // <solution relativePosition>
 Eigen::Matrix3d R;
 for (int k = 0; k < 3; ++k) R.col(k) = S.kinematicsVec(frame, Eigen::Vector3d::Unit(k));
@@ -293,6 +471,7 @@ J = R.transpose() * (S.jacobianPos(body, inBody) - S.jacobianPos(frame, inFrame)
 // <variant frame_turned_backwards> caught by: frames, other-robots
 // shown by: frames
 // mistake: R instead of its transpose.
+// ask: Is R not transposed? It turns from the axes of the frame to those of the world.
 // <solution relativePosition>
 Eigen::Matrix3d R;
 for (int k = 0; k < 3; ++k) R.col(k) = S.kinematicsVec(frame, Eigen::Vector3d::Unit(k));
@@ -302,11 +481,49 @@ J = R * (S.jacobianPos(body, inBody) - S.jacobianPos(frame, R.transpose() * d + 
 
 // <variant point_of_the_frame_forgotten> caught by: frames, other-robots
 // mistake: The vector begins at the origin of the frame.
+// ask: Is the point of the frame left out? It need not be the frame's origin.
 // <solution relativePosition>
 Eigen::Matrix3d R;
 for (int k = 0; k < 3; ++k) R.col(k) = S.kinematicsVec(frame, Eigen::Vector3d::Unit(k));
 y = R.transpose() * (S.kinematicsPos(body, inBody) - S.kinematicsPos(frame));
 J = R.transpose() * (S.jacobianPos(body, inBody) - S.jacobianPos(frame, y));
+
+// <variant point_of_the_body_forgotten> caught by: frames, other-robots
+// mistake: The vector ends at the origin of the body.
+// ask: Is the point of the body left out? It need not be the body's origin.
+// <solution relativePosition>
+// in place of: const Eigen::Vector3d d = S.kinematicsPos(body, inBody) - ... const Eigen::MatrixXd moves =
+const Eigen::Vector3d d = S.kinematicsPos(body) - S.kinematicsPos(frame, inFrame);
+const Eigen::MatrixXd moves = S.jacobianPos(body) - S.jacobianPos(frame, inFrame);
+
+// <variant both_points_forgotten> caught by: frames, other-robots
+// mistake: The vector leads from origin to origin.
+// ask: Are these the origins of both bodies, without the points in them?
+// <solution relativePosition>
+// in place of: const Eigen::Vector3d d = S.kinematicsPos(body, inBody) - ... const Eigen::MatrixXd moves =
+const Eigen::Vector3d d = S.kinematicsPos(body) - S.kinematicsPos(frame);
+const Eigen::MatrixXd moves = S.jacobianPos(body) - S.jacobianPos(frame);
+
+// <variant axes_of_the_world> caught by: frames, other-robots
+// mistake: The difference of the positions, as the world sees it.
+// ask: Is it in the axes of the world? Wanted are those of the frame.
+// <solution relativePosition>
+y = S.kinematicsPos(body, inBody) - S.kinematicsPos(frame, inFrame);
+J = S.jacobianPos(body, inBody) - S.jacobianPos(frame, inFrame);
+
+// <variant turning_of_the_frame_added> caught by: frames, other-robots
+// mistake: The change of the axes has the wrong sign.
+// ask: Does the turning of the frame have the wrong sign?
+// <solution relativePosition>
+// in place of: J.row(k) = axis.transpose() * moves +
+J.row(k) = axis.transpose() * moves - d.transpose() * S.jacobianVec(frame, Eigen::Vector3d::Unit(k));
+
+// <variant frame_does_not_move> caught by: frames, other-robots
+// mistake: Only the body moves.
+// ask: Does the frame not move in J? Its joints move it, too.
+// <solution relativePosition>
+// in place of: J.row(k) = axis.transpose() * moves +
+J.row(k) = axis.transpose() * S.jacobianPos(body, inBody);
 
 // <variant answers_from_memory> caught by: sums, other-robots
 // mistake: answers later questions from the first one, by a slope of its choice (an attack).
