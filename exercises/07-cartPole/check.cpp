@@ -74,11 +74,6 @@ void poles(Check& check, Student& student) {
         i == 0 ? regulationOf(plantOf({}), costsOfTheSheet()) : randomRegulation(check.rng(), false);
     check.input("a plant under optimal gains",
                 {{"A", task.plant.A}, {"B", task.plant.B}, {"K", -task.optimal.K}});
-    const auto minus = check.suspect(
-        "Are these the poles of A - B K? Here u = K x.",
-        Eigen::MatrixXd::Constant(1, 1, abscissa(task.plant.A + task.plant.B * task.optimal.K)));
-    const auto open = check.suspect("Are these the poles of A, without control?",
-                                    Eigen::MatrixXd::Constant(1, 1, abscissa(task.plant.A)));
     check.near("slowestPole under optimal gains", student.slowestPole(task.plant, -task.optimal.K),
                task.optimal.closedLoop.real().maxCoeff(), 1e-6, "1/s");
     describe(check, "a plant with K = 0", task.plant);

@@ -1,11 +1,8 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include "cart_checks.h"
 #include "control/gain_search.h"
@@ -48,25 +45,7 @@ inline double betweenSteps(const Plant& plant, const Costs& costs, double epsilo
   }
 }
 
-/// What the sheet puts between the bars, or what a mistake makes of it: for a plant, costs and P.
-using Bracket = std::function<Eigen::MatrixXd(const Plant&, const Costs&, const Eigen::MatrixXd&)>;
-
-/// The size of a bracket, or what a mistake takes for it.
-using Size = std::function<double(const Eigen::MatrixXd&)>;
-
 inline double largestOf(const Eigen::MatrixXd& bracket) { return bracket.cwiseAbs().maxCoeff(); }
-
-/// The first P of the iteration from Q on for which the size of the bracket is within the tolerance.
-inline Eigen::MatrixXd firstWithin(const Regulation& task, double epsilon, double tolerance,
-                                   const Bracket& bracket, const Size& sizeOf) {
-  Eigen::MatrixXd now = task.costs.Q;
-  for (int count = 0; count <= 50; ++count) {
-    const Eigen::MatrixXd rate = bracket(task.plant, task.costs, now);
-    if (sizeOf(rate) <= tolerance) return now;
-    now += epsilon * rate;
-  }
-  return {};
-}
 
 /// P_1, P_2 and P_3 of a small plant, each the first within a wide tolerance. So a wrong term of the bracket
 /// is not taken for a loop that is a step too short. The norms of the last two brackets exceed the tolerance.
@@ -77,26 +56,7 @@ inline void firstStepsFit(rex::grading::Check& check, Student& student) {
   Costs costs{Eigen::MatrixXd(2, 2), Eigen::MatrixXd(2, 2)};
   costs.Q << 1, .2, .2, 2;
   costs.R << 2, .5, .5, 1;
-  const Regulation task = regulationOf(plant, costs);
   constexpr double kEpsilon = .05;
-  const auto change = [](const Eigen::MatrixXd& by) {
-    return [by](const Plant& of, const Costs& c, const Eigen::MatrixXd& P) -> Eigen::MatrixXd {
-      return imbalance(of, c, P) + by;
-    };
-  };
-  const auto withR = [](auto weightOf) {
-    return [weightOf](const Plant& of, const Costs& c, const Eigen::MatrixXd& P) -> Eigen::MatrixXd {
-      const Eigen::MatrixXd PA = P * of.A, PB = P * of.B;
-      return PA + PA.transpose() - PB * weightOf(c.R) * PB.transpose() + c.Q;
-    };
-  };
-  const auto sideways = [](const Plant& of, const Costs& c, const Eigen::MatrixXd& P) -> Eigen::MatrixXd {
-    return imbalance({of.A.transpose(), of.B}, c, P);
-  };
-  const auto ofR = withR([](const Eigen::MatrixXd& R) -> Eigen::MatrixXd { return R; });
-  const auto ofOne =
-      withR([](const Eigen::MatrixXd& R) -> Eigen::MatrixXd { return 0 * R + Eigen::Matrix2d::Identity(); });
-  const auto plus = withR([](const Eigen::MatrixXd& R) -> Eigen::MatrixXd { return -rex::inverse(R); });
   Eigen::MatrixXd wanted = costs.Q;
   for (int steps = 1; steps <= 3; ++steps) {
     wanted += kEpsilon * imbalance(plant, costs, wanted);
@@ -109,23 +69,9 @@ inline void firstStepsFit(rex::grading::Check& check, Student& student) {
                                                 {"epsilon", kEpsilon},
                                                 {"tolerance", tolerance},
                                                 {"most", 50}});
-    const auto is = [&](const char* question, const Bracket& bracket, const Size& sizeOf = largestOf) {
-      return check.suspect(question, firstWithin(task, kEpsilon, tolerance, bracket, sizeOf));
-    };
     const std::optional<Eigen::MatrixXd> P = student.iterated(plant, costs, kEpsilon, tolerance, 50);
     check.that("iterated returns a P where a few steps are enough", P.has_value());
     check.shape("P of iterated", *P, 2, 2);
-    const auto small = is("Is the change of P compared with the tolerance? It is epsilon times the bracket.",
-                          imbalance, [](const Eigen::MatrixXd& rate) { return kEpsilon * largestOf(rate); });
-    const auto norm = is("Is it the norm of the bracket? Wanted is that no entry exceeds the tolerance.",
-                         imbalance, [](const Eigen::MatrixXd& rate) { return rate.norm(); });
-    const auto noQ = is("Is Q left out of the bracket?", change(-costs.Q));
-    const auto turned = is("Is A transposed? The bracket has A^T P + P A.", sideways);
-    const auto inverse = is("Is R used in place of its inverse?", ofR);
-    const auto none = is("Is R left out of the bracket?", ofOne);
-    const auto sign = is("Which sign has the term with R^-1?", plus);
-    const auto next = check.suspect("Is the P after it returned? Wanted is the one whose bracket is small.",
-                                    wanted + kEpsilon * imbalance(plant, costs, wanted));
     check.near("P of iterated, which needs few steps", *P, wanted, 1e-9);
   }
 }
@@ -172,21 +118,6 @@ inline void iterationEnds(rex::grading::Check& check, Student& student) {
   check.that("iterated returns nothing if there is no P", !student.iterated(plant, costs, .01, 1e-3, 5000));
 }
 
-/// P from the stable half of a matrix (2 n x 2 n), symmetric; empty if that half has not n dimensions.
-inline Eigen::MatrixXd fromStableHalf(const Eigen::MatrixXd& Z) {
-  const Eigen::Index n = Z.rows() / 2;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(Z);
-  Eigen::MatrixXcd half(2 * n, 0);
-  for (Eigen::Index i = 0; i < 2 * n; ++i) {
-    if (solver.eigenvalues()[i].real() >= 0) continue;
-    half.conservativeResize(Eigen::NoChange, half.cols() + 1);
-    half.rightCols(1) = solver.eigenvectors().col(i);
-  }
-  if (half.cols() != n) return {};
-  const Eigen::MatrixXd P = (half.bottomRows(n) * half.topRows(n).inverse()).real();
-  return (P + P.transpose()) / 2;
-}
-
 /// The bracket shows how exact P is, but not what is wrong with it: first P is compared with the wanted one,
 /// as far as that is known.
 inline void hamiltonianFits(rex::grading::Check& check, Student& student, const Regulation& task) {
@@ -195,29 +126,6 @@ inline void hamiltonianFits(rex::grading::Check& check, Student& student, const 
   const Eigen::MatrixXd P = student.viaHamiltonian(plant, costs);
   check.shape("P of viaHamiltonian", P, plant.A.rows(), plant.A.rows());
   const double scale = 1 + costs.Q.norm() + 2 * (optimal.X * plant.A).norm();
-  const Costs ofOne{costs.Q, Eigen::MatrixXd::Identity(costs.R.rows(), costs.R.rows())};
-  const auto withoutR =
-      check.suspect("Is R left out, as if it were the identity?", regulationOf(plant, ofOne).optimal.X);
-  const auto ofR = check.suspect("Is R used in place of its inverse?",
-                                 regulationOf(plant, {costs.Q, rex::inverse(costs.R)}).optimal.X);
-  const auto turned =
-      check.suspect("Is it the inverse of P? The stable half is spanned by (I; P).", rex::inverse(optimal.X));
-  const Eigen::MatrixXd S = plant.B * rex::solveMatrix(costs.R, plant.B.transpose()), &Q = costs.Q,
-                        At = plant.A.transpose();
-  const auto blocks = [&](const char* question, const Eigen::MatrixXd& upper, const Eigen::MatrixXd& lower,
-                          const Eigen::MatrixXd& last) {
-    return check.suspect(
-        question,
-        fromStableHalf(
-            (Eigen::MatrixXd(2 * At.rows(), 2 * At.rows()) << plant.A, upper, lower, last).finished()));
-  };
-  const auto plusQ = blocks("Which sign has Q in the Hamiltonian matrix?", -S, Q, -At);
-  const auto plusA = blocks("Which sign has A^T in the Hamiltonian matrix?", -S, -Q, At);
-  const auto swapped = blocks("Which of the blocks B R^-1 B^T and Q is above the other?", -Q, -S, -At);
-  const auto unstable = check.ask(
-      "Does P belong to the unstable half of the Hamiltonian's eigenvalues?",
-      abscissa(plant.A - plant.B * rex::solveMatrix(costs.R, plant.B.transpose() * P)) > 0 &&
-          imbalance(plant, costs, P).lpNorm<Eigen::Infinity>() < 1e-6 * scale * (1 + P.squaredNorm()));
   check.near("P of viaHamiltonian", P, optimal.X, 1e-3 * (1 + optimal.X.norm()));
   check.near("P of viaHamiltonian, transposed", P.transpose(), P, 1e-9 * optimal.X.norm());
   check.near("bracket for the P of viaHamiltonian", imbalance(plant, costs, P),
@@ -227,10 +135,6 @@ inline void hamiltonianFits(rex::grading::Check& check, Student& student, const 
 inline void gainsFit(rex::grading::Check& check, Student& student, const Regulation& task) {
   const auto& [plant, costs, optimal] = task;
   check.input("a plant, its costs and their P", {{"B", plant.B}, {"R", costs.R}, {"P", optimal.X}});
-  const auto sign = check.suspect("Is the sign that of u = -K x? Here it is u = K x.", optimal.K);
-  const auto noR = check.suspect("Is R left out?", -plant.B.transpose() * optimal.X);
-  const auto ofR =
-      check.suspect("Is R used in place of its inverse?", -costs.R * plant.B.transpose() * optimal.X);
   check.near("K of gainOf", student.gainOf(plant, costs, optimal.X), -optimal.K,
              1e-8 * (1 + optimal.K.norm()));
 }
@@ -242,7 +146,6 @@ inline void gainsOfTheSheetFit(rex::grading::Check& check, Student& student) {
   const Eigen::MatrixXd K = student.gainOf(plant, costs, optimal.X), wanted = -optimal.K;
   check.shape("K of gainOf", K, 1, 4);
   const auto shown = check.show([&] { return seenUnder(K, wanted); });
-  const auto sign = check.suspect("Is the sign that of u = -K x? Here it is u = K x.", optimal.K);
   check.near("K of gainOf", K, wanted, 1e-8 * (1 + wanted.norm()));
 }
 
