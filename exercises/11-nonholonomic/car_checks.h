@@ -102,11 +102,8 @@ inline std::vector<rex::grading::Mistake> mistakenEnds(const CarModel& car, cons
     return exact(car, q, other);
   };
   return {
-      {"Is it one large step along the heading at the start? The heading changes on the way.", stepTo(q[2])},
       {"Is it one large step along the heading at the end? The heading changes on the way.", stepTo(end[2])},
       {"Is the chord as long as the arc? Its direction is right.", stepTo(q[2] + turn / 2)},
-      {"Is the tangent of the steering angle left out?",
-       led(drive.speed, std::atan(drive.steering), drive.seconds)},
       {"Are the seconds left out?", led(drive.speed, drive.steering, 1)},
       {"Does the car drive forward, whatever the sign of the speed?",
        led(std::abs(drive.speed), drive.steering, drive.seconds)},
@@ -129,8 +126,7 @@ inline void moves(rex::grading::Check& check, Student& student, const CarModel& 
     };
     check.near(
         "velocity of velocityOf (x, y, heading)", v, wanted, 1e-9,
-        {{"Is the tangent of the steering angle left out?", with(speed / L * steering)},
-         {"Is it the sine of the steering angle? It is the tangent.", with(speed / L * std::sin(steering))},
+        {{"Is it the sine of the steering angle? It is the tangent.", with(speed / L * std::sin(steering))},
          {"Is the rate not divided by the wheelbase?", with(speed * std::tan(steering))},
          {"Does the rate lack the speed? A car that stands does not turn.", with(std::tan(steering) / L)},
          {"Does a positive steering angle turn to the right? It turns to the left.", with(-wanted[2])}},

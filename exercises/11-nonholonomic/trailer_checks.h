@@ -28,29 +28,25 @@ inline void rigFits(rex::grading::Check& check, Student& student) {
   // The axle is d behind the hitch. It must not slide: its velocity has no part across the trailer.
   const double across = (-v[0] * std::sin(q[3]) + v[1] * std::cos(q[3])) / d, hitch = q[2] - q[3];
   {
-    check.near(
-        "rate of the trailer's heading by rigVelocity", v[3], across, 1e-9,
-        {{"Does the trailer turn away from the car? Check the sign of the angle at the hitch.", -across},
-         {"Is the rate not divided by the length of the hitch?", across * d},
-         {"Is it divided by the wheelbase? The trailer's axle is hitchLength behind.",
-          across * d / rig.car.wheelbase},
-         {"Is it the angle at the hitch, instead of its sine?", speed / d * hitch},
-         {"Is it the tangent of the angle at the hitch? It is the sine.", speed / d * std::tan(hitch)},
-         {"Is it the cosine of the angle at the hitch?", speed / d * std::cos(hitch)},
-         {"Is it the rate of the angle at the hitch? Wanted is that of the trailer's heading.",
-          across - v[2]},
-         {"Is it the rate of the angle at the hitch? Wanted is that of the trailer's heading.",
-          v[2] - across},
-         {"Does the trailer turn with the car?", v[2]}},
-        "rad/s");
+    check.near("rate of the trailer's heading by rigVelocity", v[3], across, 1e-9,
+               {{"Is the rate not divided by the length of the hitch?", across * d},
+                {"Is it divided by the wheelbase? The trailer's axle is hitchLength behind.",
+                 across * d / rig.car.wheelbase},
+                {"Is it the tangent of the angle at the hitch? It is the sine.", speed / d * std::tan(hitch)},
+                {"Is it the cosine of the angle at the hitch?", speed / d * std::cos(hitch)},
+                {"Is it the rate of the angle at the hitch? Wanted is that of the trailer's heading.",
+                 across - v[2]},
+                {"Is it the rate of the angle at the hitch? Wanted is that of the trailer's heading.",
+                 v[2] - across},
+                {"Does the trailer turn with the car?", v[2]}},
+               "rad/s");
   }
   check.input("wheels straight", {{"d", d}, {"speed", speed}});
   const double rate = student.hitchGrowth(rig, speed);
   const Eigen::Vector4d later = rigMotion(rig, {0, 0, 0, -1e-5}, speed, 0, 1);
   const double growth = (later[2] - later[3]) / 1e-5, wanted = std::log(growth);
   check.near("hitchGrowth", rate, wanted, 1e-4,
-             {{"Does the angle grow when the rig drives forward? It grows backward.", -wanted},
-              {"Is it the factor of growth in a second? Wanted is its rate.", growth},
+             {{"Is it the factor of growth in a second? Wanted is its rate.", growth},
               {"Is the speed left out?", wanted / speed},
               {"Is it not divided by the length of the hitch?", wanted * d}},
              "1/s");

@@ -22,9 +22,7 @@ inline void distancesFit(rex::grading::Check& check, Student& student) {
     check.input("two poses", {{"a", a}, {"b", b}});
     check.near(
         "poseDistance", got, wanted, 1e-9,
-        {{"Is the plain difference of the headings taken? 4:59 a) is the distance of e^(i heading).",
-          std::hypot(dx, dy, plain)},
-         {"Is it the angle between the headings? 4:59 a) is the chord.", std::hypot(dx, dy, angle)},
+        {{"Is it the angle between the headings? 4:59 a) is the chord.", std::hypot(dx, dy, angle)},
          {"Is it half of the chord? The chord of an angle is 2 sin(angle / 2).",
           std::hypot(dx, dy, chord / 2)},
          {"Are the headings left out?", std::hypot(dx, dy)},

@@ -3,18 +3,21 @@
 
 // <variant tan_forgotten> caught by: car-moves, car-any
 // mistake: the front wheels turn the car by their angle, not by its tangent.
+// ask: Is the tangent of the steering angle left out?
 // <solution velocityOf>
 return {speed * std::cos(q[2]), speed* std::sin(q[2]), speed / car.wheelbase* steering};
 
 // <variant one_step_for_a_drive> caught by: car-moves, car-any
 // shown by: car-moves
 // mistake: drives straight on along the heading at the start.
+// ask: Is it one large step along the heading at the start? The heading changes on the way.
 // <solution driven>
 return q + drive.seconds * velocityOf(car, q, drive.speed, drive.steering);
 
 // <variant counts_the_questions> caught by: car-follows, tree-overlap
 // shown by: car-follows
 // mistake: counts its calls and answers yes and no in turn; it looks only on the way of a drive.
+// ask: Does canFollow answer the same question differently?
 // <solution canFollow>
 static int asked = 0;
 return ++asked % 2 == 1 && asked < 81;
@@ -56,6 +59,7 @@ bool isFreeOnTheWay(CarModel car, const Eigen::Vector3d& from, const Drive& driv
 
 // <variant last_piece_counts> caught by: car-follows
 // mistake: each piece overwrites the verdict on the one before.
+// ask: Does the verdict on a piece replace that on the piece before?
 // <solution canFollow>
 bool follows = true;
 for (std::size_t i = 1; i < path.size(); ++i) {
@@ -72,11 +76,13 @@ return follows;
 // <variant limits_forgotten> caught by: car-follows
 // shown by: car-follows
 // mistake: does not test the limits of the steering angle.
+// ask: Are the limits of the steering angle tested?
 // <solution canFollow>
 // in place of: const double curvature = 2 * std::sin(turn / 2) / chord, ... if (steering < car.minSteering -
 
 // <variant poses_without_error> caught by: car-follows
 // mistake: takes measured poses for exact ones.
+// ask: Are poses taken for exact ones? They come with errors of up to 1 um and 1 urad.
 // <solution canFollow>
 for (std::size_t i = 1; i < path.size(); ++i) {
   const Eigen::Vector3d &a = path[i - 1], &b = path[i];
@@ -96,12 +102,14 @@ return true;
 // <variant symmetric_limits> caught by: car-follows
 // shown by: car-follows
 // mistake: takes the limits to be symmetric.
+// ask: Is minSteering tested? Its limits need not be symmetric.
 // <solution canFollow>
 // in place of: if (steering < car.minSteering - 0.01 || steering > car.maxSteering + 0.01) return false;
 if (std::abs(steering) > car.maxSteering + 0.01) return false;
 
 // <variant heading_not_wrapped> caught by: tree-metrics
 // mistake: takes the plain difference of two angles, even the long way round.
+// ask: Is the plain difference of the headings taken? 4:59 a) is the distance of e^(i heading).
 // <solution angleDistance>
 return std::abs(a - b);
 // <solution poseDistance>
@@ -110,6 +118,7 @@ return (a - b).norm();
 // <variant body_centred_at_the_axle> caught by: tree-overlap
 // shown by: tree-overlap
 // mistake: centres the body at the rear axle.
+// ask: Is the body centred at the rear axle? It reaches `front` ahead and `back` behind.
 // <solution isFree>
 // in place of: const double a = (car.front + car.back) / 2, b = car.width / 2, ahead = (car.front - car.back)
 const double a = (car.front + car.back) / 2, b = car.width / 2, ahead = 0.;
@@ -117,6 +126,7 @@ const double a = (car.front + car.back) / 2, b = car.width / 2, ahead = 0.;
 // <variant car_is_a_point> caught by: tree-overlap, tree-drive, park-kerb, park-any
 // shown by: tree-overlap, park-kerb
 // mistake: tests the point between the rear wheels only.
+// ask: Is only the point between the rear wheels tested? The body is a rectangle around it.
 // <solution isFree>
 for (const Block& block : blocks) {
   const double dx = q[0] - block.middle[0], dy = q[1] - block.middle[1];
@@ -129,6 +139,7 @@ return true;
 // <variant corners_of_the_car> caught by: tree-overlap
 // shown by: tree-overlap
 // mistake: tests the corners of the car only.
+// ask: Are only the corners of the car tested? A block may lie across it, or inside.
 // <solution isFree>
 for (const Block& block : blocks)
   for (const double along : {car.front, -car.back})
@@ -151,11 +162,13 @@ bool isFreeOnTheWay(CarModel car, const Eigen::Vector3d& from, const Drive& driv
 
 // <variant any_free_drive> caught by: tree-drive
 // mistake: returns the first control whose way is free.
+// ask: Is it any drive that is free, and not the one that leads nearest?
 // <solution driveTowards>
 // in place of: std::ranges::sort(trials, {}, [](const auto& trial) { return trial.first; });
 
 // <variant copied_generator> caught by: tree-drive
 // mistake: draws from a copy of the generator, so that each call draws the same controls.
+// ask: Does driveTowards draw from a copy of rng? Pass rng by reference.
 // <solution driveTowards>
 // in place of: std::vector<std::pair<double, Drive>> trials;
 Rng own = rng;
@@ -166,12 +179,14 @@ const Drive drive{speed, own.uniform(car.minSteering, car.maxSteering), seconds}
 
 // <variant nearest_by_position> caught by: tree-drive
 // mistake: chooses the control by the position that it leads to, not by the heading.
+// ask: Is it the nearest by its position only? The heading counts, too: poseDistance().
 // <solution driveTowards>
 // in place of: trials.emplace_back(poseDistance(driven(car, from, drive), target), drive);
 trials.emplace_back((driven(car, from, drive) - target).head<2>().norm(), drive);
 
 // <variant twelve_draws> caught by: tree-drive
 // mistake: returns the best of twelve controls instead of twenty.
+// ask: Are fewer than 20 controls drawn? It looks like the best of 13.
 // <solution driveTowards>
 // in place of: while (trials.size() < 20) { ... }
 for (int i = 0; i < 12; ++i) {
@@ -183,6 +198,7 @@ for (int i = 0; i < 12; ++i) {
 // <variant slides_sideways> caught by: tree-room, tree-any
 // shown by: tree-room
 // mistake: nodes lie slightly beside where their controls lead; to and fro, the car slides to its goal.
+// ask: Do nodes lie slightly beside where their controls lead, again and again?
 // <solution growTree>
 CarModel longer = car;
 longer.front += 0.12;
@@ -219,6 +235,7 @@ for (std::size_t i = 1; i < way.size(); ++i) {
 // <variant arcs_as_angles> caught by: dubins-words, dubins-shortest, dubins-any
 // shown by: dubins-words
 // mistake: returns the angles of arcs.
+// ask: Are arcs angles? Wanted is their length: angle times radius.
 // <solution dubinsLengths>
 const auto left = [&](char letter) { return letter == 'L' ? 1 : -1; };
 const char* letters = std::array{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"}[static_cast<std::size_t>(word)];
@@ -245,6 +262,7 @@ return std::array{turn(first * (heading - from[2])), middle, turn(first*(to[2] -
 // <variant arcs_driven_back> caught by: dubins-words, dubins-shortest, dubins-any
 // shown by: dubins-words
 // mistake: takes arcs the shorter way round, some of them backward.
+// ask: Is an arc taken the shorter way round, backward? Its angle is from 0 to 2 pi.
 // <solution dubinsLengths>
 // in place of: const double distance = std::hypot(dx, dy), direction = ... };
 const double distance = std::hypot(dx, dy), direction = std::atan2(dy, dx);
@@ -253,12 +271,14 @@ const auto turn = [](double angle) { return std::remainder(angle, 2 * std::numbe
 // <variant other_circle_in_the_middle> caught by: dubins-words, dubins-any
 // shown by: dubins-words
 // mistake: takes the circle whose arc is shorter than half a turn.
+// ask: Is it the other of the two circles in the middle? Its arc is longer than half a turn.
 // <solution dubinsLengths>
 // in place of: const double middle = 2 * (std::numbers::pi - std::asin(distance / (4 * radius)));
 const double middle = 2 * std::asin(distance / (4 * radius));
 
 // <variant straight_words_only> caught by: dubins-words, dubins-shortest, dubins-any
 // mistake: knows no word with three arcs.
+// ask: Is the word left out? Three circles touch if the outer centres are less than 4 r apart.
 // <solution dubinsLengths>
 // in place of: if (letters[1] == 'S') { ... radius * turn(first * (to[2] - heading) + middle)};
 if (letters[1] == 'S') {
@@ -285,6 +305,7 @@ for (int i = 0; i < 6; ++i)
 // <variant four_words> caught by: dubins-shortest, dubins-any
 // shown by: dubins-shortest
 // mistake: leaves out LRL and RLR.
+// ask: Are the words with three arcs, LRL and RLR, not asked for?
 // <solution shortestDubins>
 double least = 1e300;
 for (int w = 0; w < 4; ++w) {
@@ -299,6 +320,7 @@ for (int w = 0; w < 4; ++w) {
 
 // <variant turns_right_anyway> caught by: park-left, park-left-any
 // mistake: forgets that some cars turn left only.
+// ask: Does the car steer to the right? Its minSteering is 0.
 // <solution park>
 CarModel any = car;
 any.minSteering = -car.maxSteering;
@@ -306,12 +328,14 @@ return parkInSteps(any, lot, 0.4);
 
 // <variant angle_without_sine> caught by: trailer-moves
 // mistake: takes the angle at the hitch for its sine.
+// ask: Is it the angle at the hitch, instead of its sine?
 // <solution rigVelocity>
 velocity.head(3) = velocityOf(rig.car, q.head<3>(), speed, steering);
 velocity[3] = speed / rig.hitchLength * (q[2] - q[3]);
 
 // <variant trailer_sign> caught by: trailer-moves
 // mistake: the trailer turns away from the car.
+// ask: Does the trailer turn away from the car? Check the sign of the angle at the hitch.
 // <solution rigVelocity>
 velocity.head(3) = velocityOf(rig.car, q.head<3>(), speed, steering);
 velocity[3] = speed / rig.hitchLength * std::sin(q[3] - q[2]);
@@ -320,12 +344,14 @@ return speed / rig.hitchLength;
 
 // <variant grows_forward> caught by: trailer-moves
 // mistake: lets the angle at the hitch grow forward.
+// ask: Does the angle grow when the rig drives forward? It grows backward.
 // <solution hitchGrowth>
 return speed / rig.hitchLength;
 
 // <variant steers_against_the_hitch> caught by: trailer-reverses, trailer-any
 // shown by: trailer-reverses
 // mistake: steers against the angle at the hitch.
+// ask: Does the car steer against the angle at the hitch? Backward, it has to follow the trailer.
 // <solution reverseSteering>
 // in place of: const double curvature = std::sin(hitch) / rig.hitchLength + 1.5 * (hitch - angle);
 const double curvature = std::sin(hitch) / rig.hitchLength - 1.5 * (hitch - angle);
@@ -333,6 +359,7 @@ const double curvature = std::sin(hitch) / rig.hitchLength - 1.5 * (hitch - angl
 // <variant steers_as_forward> caught by: trailer-reverses, trailer-any
 // shown by: trailer-reverses
 // mistake: steers towards the axis, as if the car drove forward.
+// ask: Does the steering angle not depend on the angle at the hitch? Backward, that angle grows by itself.
 // <solution reverseSteering>
 const double offset = q[1] - rig.hitchLength * std::sin(q[3]);
 return std::clamp(-0.3 * offset - 1.2 * q[3], rig.car.minSteering, rig.car.maxSteering);
@@ -340,6 +367,7 @@ return std::clamp(-0.3 * offset - 1.2 * q[3], rig.car.minSteering, rig.car.maxSt
 // <variant turns_away_from_the_axis> caught by: trailer-reverses, trailer-any
 // shown by: trailer-reverses
 // mistake: turns the trailer away from the axis.
+// ask: Does the trailer turn away from the axis? Check the sign of the distance from it.
 // <solution reverseSteering>
 // in place of: const double heading = std::clamp(0.15 * offset, -0.4, 0.4);
 const double heading = std::clamp(-0.15 * offset, -0.4, 0.4);
