@@ -93,12 +93,13 @@ void addDetails(Rng& rng, SceneSpec& spec) {
     spec.joints[j].lower.array() += spec.joints[j].mimicOffset;
     spec.joints[j].upper.array() += spec.joints[j].mimicOffset;
   }
+  Rng own = rng;  // a copy: details that came later leave the scenes of older tests as they were
   for (JointSpec& joint : spec.joints) {
     if (joint.type == JointType::kRigid) continue;
-    if (rng.index(2) == 0) joint.armature = rng.uniform(0, 3);
-    if (rng.index(2) == 0) joint.stiffness = rng.uniform(0, 9);
-    if (joint.stiffness > 0 && rng.index(2) == 0)
-      joint.springReference = rng.normalVector(positionCount(joint.type));
+    if (own.index(2) == 0) joint.armature = own.uniform(0, 3);
+    if (own.index(2) == 0) joint.stiffness = own.uniform(0, 9);
+    if (joint.stiffness > 0 && own.index(2) == 0)
+      joint.springReference = own.normalVector(positionCount(joint.type));
   }
 }
 
