@@ -68,7 +68,7 @@ inline void movesJoint(rex::grading::Check& check, Student& student, bool slides
               {"Does the joint turn and move at once?", withParts(R, q * a)},
               {"Is the axis turned out of frame J?",
                slides ? withParts(I, q * R_PJ * a) : withParts(turn(R_PJ * a, q), zero)},
-              {"Has q the wrong sign?", slides ? withParts(I, -q * a) : withParts(turn(a, -q), zero)},
+              {"Does q have the wrong sign?", slides ? withParts(I, -q * a) : withParts(turn(a, -q), zero)},
               {"Does the joint not move?", Eigen::Matrix4d(Eigen::Matrix4d::Identity())}});
 }
 
@@ -241,7 +241,7 @@ inline void differentiates(rex::grading::Check& check, Student& student, int d, 
   });
   check.near("J of differences", got, J, 1e-7,
              {{"Is it divided by 2 h, though only one step is taken?", J / 2},
-              {"Has it the wrong sign?", -J},
+              {"Does it have the wrong sign?", -J},
               {"Are the columns in reverse order?", J.rowwise().reverse()}});
 }
 
@@ -299,7 +299,7 @@ inline void movesByScrew(rex::grading::Check& check, Student& student, bool slid
       {{"Are w and v exchanged?", exponential(v, screw.w)},
        {"Is the position left out?", withParts(R, zero)},
        {"Is the part of v along the axis lost?", withParts(R, (1 - std::cos(q)) * W * v + std::sin(q) * v)},
-       {"Has the rotation the wrong sense?", withParts(R.transpose(), wanted.topRightCorner<3, 1>())}});
+       {"Does the rotation have the wrong sense?", withParts(R.transpose(), wanted.topRightCorner<3, 1>())}});
 }
 
 inline void findsScrews(rex::grading::Check& check, Student& student, const Chain& chain) {

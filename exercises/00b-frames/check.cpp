@@ -1,5 +1,6 @@
 #include "grading/check.h"
 
+#include "candidates.h"
 #include "chain_checks.h"
 
 using namespace rex;
@@ -77,9 +78,6 @@ void findsTurningAxes(Check& check, Student& student) {
     for (int i = 0; i < 6; ++i)
       findsAxes(check, student, convention,
                 anglesNear(check.rng(), convention, check.rng().uniform(0.2, 1.3)));
-}
-
-void losesAxes(Check& check, Student& student) {
   for (const Convention convention : kBoth)
     for (int i = 0; i < 6; ++i) losesAxis(check, student, convention);
 }
@@ -148,12 +146,9 @@ void differentiatesChain(Check& check, Student& student, int n, bool isVector) {
     movesPoint(check, chain, q, y, J, student.pointJacobian(chain, q, y));
 }
 
-void differentiatesPoints(Check& check, Student& student) {
-  for (int n = 3; n <= 7; ++n) differentiatesChain(check, student, n, false);
-}
-
-void differentiatesVectors(Check& check, Student& student) {
-  for (int n = 3; n <= 7; ++n) differentiatesChain(check, student, n, true);
+void differentiatesChains(Check& check, Student& student) {
+  for (const bool isVector : {false, true})
+    for (int n = 3; n <= 7; ++n) differentiatesChain(check, student, n, isVector);
 }
 
 // <hidden>
@@ -191,6 +186,28 @@ void reachesEndsByScrews(Check& check, Student& student) {
   }
 }
 
+// Part 6. All candidates are tried in one random order, so that it gives nothing away.
+
+void tellsMistakes(Check& check, Student& student) {
+  std::vector<Candidate> candidates = rightRotations();
+  const std::size_t right = candidates.size();
+  for (Candidate& mistake : mistakenRotations()) candidates.push_back(std::move(mistake));
+  std::vector<bool> passed(candidates.size());
+  for (const std::size_t k : shuffled(candidates.size(), check.rng()))
+    passed[k] = student.passesRotationTest(candidates[k].function);
+  for (std::size_t k = 0; k < right; ++k) {
+    check.input("a right function, " + candidates[k].what);
+    const auto asked = check.ask(candidates[k].question);
+    check.that("passesRotationTest accepts a right function", passed[k]);
+  }
+  check.forEachCase(static_cast<int>(candidates.size() - right), [&](int i) {
+    const std::size_t k = right + static_cast<std::size_t>(i);
+    check.input("a function with a mistake: " + candidates[k].what);
+    const auto asked = check.ask(candidates[k].question);
+    check.that("passesRotationTest refuses a function with a mistake", !passed[k]);
+  });
+}
+
 }  // namespace
 
 rex::grading::Checks<Student> checks() {
@@ -205,15 +222,15 @@ rex::grading::Checks<Student> checks() {
       {"euler-angles", "euler", "The angles of a rotation", 1, Group::kVisible, findsAngles},
       {"euler-locked", "euler", "Angles at gimbal lock and near to it", 1, Group::kVisible,
        findsLockedAngles},
-      {"euler-axes", "euler", "The axes that the angles turn about", 1, Group::kVisible, findsTurningAxes},
-      {"euler-lost", "euler", "Two axes coincide, one is lost", 1, Group::kVisible, losesAxes},
+      {"euler-axes", "euler", "The axes that the angles turn about, and the one that is lost", 1,
+       Group::kVisible, findsTurningAxes},
       {"transforms", "chain", "Inverse and relative transforms", 1, Group::kVisible, invertsTransforms},
       {"end", "chain", "Joints, and the end of a chain", 1, Group::kVisible, reachesEnds},
       // <hidden>
       {"end-robots", "chain", "The course's robots, and longer chains", 1, Group::kHidden, reachesRobotEnds},
       // </hidden>
-      {"point", "jacobian", "How joints move a point", 1, Group::kVisible, differentiatesPoints},
-      {"vector", "jacobian", "How joints turn a direction", 1, Group::kVisible, differentiatesVectors},
+      {"columns", "jacobian", "How joints move a point and turn a direction", 1, Group::kVisible,
+       differentiatesChains},
       // <hidden>
       {"jacobian-robots", "jacobian", "The course's robots", 1, Group::kHidden, differentiatesRobots},
       // </hidden>
@@ -222,5 +239,7 @@ rex::grading::Checks<Student> checks() {
       {"screw", "screws", "The motion of a screw", 1, Group::kVisible, movesAlongScrews},
       {"screw-chain", "screws", "Screws of a chain, and their product", 1, Group::kVisible,
        reachesEndsByScrews},
+      {"rotation-test", "test", "Right functions and mistakes, told apart", 2, Group::kVisible,
+       tellsMistakes},
   };
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "course/course.h"
@@ -121,3 +122,12 @@ std::vector<Screw> screwsOf(const Chain& chain);
 /// X_WE from the screws and the pose X_WE0 of the end where all coordinates are 0.
 Eigen::Matrix4d endPoseByScrews(const std::vector<Screw>& screws, const Eigen::Matrix4d& X_WE0,
                                 const Eigen::VectorXd& q);
+
+// Part 6, a bonus: a test.
+
+/// Somebody's rotationMatrix().
+using RotationFunction = std::function<Eigen::Matrix3d(const Eigen::Vector3d& axis, double angle)>;
+
+/// Whether `candidate` is right: it returns what rotationMatrix() should, up to rounding errors of 1e-12, for
+/// every unit vector and every angle from -pi to pi.
+bool passesRotationTest(const RotationFunction& candidate);

@@ -129,6 +129,11 @@ Eigen::Matrix4d endPoseByScrews(const std::vector<Screw>& screws, const Eigen::M
   return X;
 }
 
+bool passesRotationTest(const RotationFunction& candidate) {
+  // TODO: try several axes and angles. Which vectors do you know before and after the rotation?
+  return true;
+}
+
 // What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
 int main() {
   const double pi = std::numbers::pi;
@@ -165,4 +170,11 @@ int main() {
 
   // Part 5, the bonus: the end pose once more.
   print("endPoseByScrews", endPoseByScrews(screwsOf(arm), endPose(arm, Eigen::VectorXd::Zero(7)), q));
+
+  // Part 6, the bonus: does your test accept your own function, and one that turns by degrees?
+  const auto byDegrees = [&](const Eigen::Vector3d& w, double angle) {
+    return rotationMatrix(w, angle * 180 / pi);
+  };
+  print("rotationMatrix passes your test", passesRotationTest(rotationMatrix) ? "yes" : "no");
+  print("a rotation by degrees passes it", passesRotationTest(byDegrees) ? "yes" : "no");
 }

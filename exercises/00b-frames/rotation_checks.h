@@ -47,7 +47,7 @@ inline void rotatesAbout(rex::grading::Check& check, Student& student, const Eig
   const double s = std::sin(angle), c = std::cos(angle);
   const auto shown = check.show([&] { return arrowsOf(got, R); });
   check.near("R of rotationMatrix", got, R, 1e-12,
-             {{"Has w w^T no factor? It is 1 - cos.", c * I + s * W + square},
+             {{"Is the factor of w w^T left out? It is 1 - cos.", c * I + s * W + square},
               {"Is the angle taken for one in degrees?", turn(axis, angle * kPi / 180)},
               {"Is it the rotation of a small angle only?", I + angle * W}});
 }
@@ -92,7 +92,7 @@ inline void composes(rex::grading::Check& check, Student& student, const Eigen::
   added[0] = a[0] * b[0] + u.dot(v);
   nearUpToSign(check, "quaternion of composed", student.composed(a, b), wanted, 1e-12,
                {{"Is the cross product left out?", plain},
-                {"Has the scalar product of the vector parts the wrong sign?", added},
+                {"Does the scalar product of the vector parts have the wrong sign?", added},
                 {"Are the quaternions added?", a + b},
                 {"Is b conjugated?", rex::quaternionProduct(a, conjugate(b))},
                 {"Is a conjugated?", rex::quaternionProduct(conjugate(a), b)}});
@@ -160,7 +160,7 @@ inline void turnsByEuler(rex::grading::Check& check, Student& student, Conventio
   check.near("R of eulerMatrix", got, R, 1e-12,
              {{"Is it the transpose? R takes coordinates of the frame to those of the world.",
                Eigen::Matrix3d(R.transpose())},
-              {"Has the second rotation the wrong sense?", only(angles[0], -angles[1], angles[2])},
+              {"Does the second rotation have the wrong sense?", only(angles[0], -angles[1], angles[2])},
               {"Is the third rotation left out?", only(angles[0], angles[1], 0)}});
 }
 
@@ -177,16 +177,17 @@ inline void findsEuler(rex::grading::Check& check, Student& student, Convention 
   const auto wrapped = [](const Eigen::Vector3d& a) {
     return Eigen::Vector3d(rex::wrapAngle(a[0]), a[1], rex::wrapAngle(a[2]));
   };
-  check.near("angles of eulerAngles", got, angles, 1e-9,
-             {{"Is the second angle outside its range? The same rotation has other angles as well.", other},
-              {"Is it the transpose whose angles these are?", wrapped(back)},
-              {"Are the two arguments of each atan2 exchanged?",
-               wrapped({kPi / 2 - angles[0], angles[1], kPi / 2 - angles[2]})},
-              {"Has the second argument of the third atan2 the wrong sign?",
-               wrapped({angles[0], angles[1], kPi - angles[2]})},
-              {"Has the second angle the wrong sign?", Eigen::Vector3d(angles[0], -angles[1], angles[2])},
-              {"Is the third angle left at 0 everywhere? It is 0 only where the convention locks.",
-               Eigen::Vector3d(angles[0], angles[1], 0)}});
+  check.near(
+      "angles of eulerAngles", got, angles, 1e-9,
+      {{"Is the second angle outside its range? The same rotation has other angles as well.", other},
+       {"Is it the transpose whose angles these are?", wrapped(back)},
+       {"Are the two arguments of each atan2 exchanged?",
+        wrapped({kPi / 2 - angles[0], angles[1], kPi / 2 - angles[2]})},
+       {"Does the second argument of the third atan2 have the wrong sign?",
+        wrapped({angles[0], angles[1], kPi - angles[2]})},
+       {"Does the second angle have the wrong sign?", Eigen::Vector3d(angles[0], -angles[1], angles[2])},
+       {"Is the third angle left at 0 everywhere? It is 0 only where the convention locks.",
+        Eigen::Vector3d(angles[0], angles[1], 0)}});
 }
 
 /// Where the convention locks, any first and third angle with the same sum or difference turn alike. If

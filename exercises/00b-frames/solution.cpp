@@ -287,6 +287,33 @@ Eigen::Matrix4d endPoseByScrews(const std::vector<Screw>& screws, const Eigen::M
   return X;
 }
 
+bool passesRotationTest(const RotationFunction& candidate) {
+  // <solution passesRotationTest>
+  // A rotation keeps its axis, and turns the two directions across it. Axes have entries of both signs;
+  // angles include none, tiny ones and half a turn.
+  const double pi = std::numbers::pi;
+  std::vector<double> turns = {0, 1e-5, -1e-5, pi, -pi};
+  for (double angle = -3; angle <= 3; angle += 0.25) turns.push_back(angle);
+  for (const Eigen::Vector3d& w :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0, 0, 1),
+        Eigen::Vector3d(Eigen::Vector3d(1, 2, -2) / 3), Eigen::Vector3d(Eigen::Vector3d(-2, 3, 6) / 7)}) {
+    Eigen::Matrix3d frame;
+    frame << w, w.unitOrthogonal(), w.cross(w.unitOrthogonal());
+    for (const double angle : turns) {
+      const double c = std::cos(angle), s = std::sin(angle);
+      Eigen::Matrix3d turned;
+      turned << frame.col(0), c * frame.col(1) + s * frame.col(2), c * frame.col(2) - s * frame.col(1);
+      const double off = (candidate(w, angle) * frame - turned).norm();
+      if (!(off < 1e-11)) return false;  // also if it is not a number
+    }
+  }
+  return true;
+  // <todo>
+  //| // TODO: try several axes and angles. Which vectors do you know before and after the rotation?
+  //| return true;
+  // </solution>
+}
+
 // What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
 int main() {
   const double pi = std::numbers::pi;
@@ -323,4 +350,11 @@ int main() {
 
   // Part 5, the bonus: the end pose once more.
   print("endPoseByScrews", endPoseByScrews(screwsOf(arm), endPose(arm, Eigen::VectorXd::Zero(7)), q));
+
+  // Part 6, the bonus: does your test accept your own function, and one that turns by degrees?
+  const auto byDegrees = [&](const Eigen::Vector3d& w, double angle) {
+    return rotationMatrix(w, angle * 180 / pi);
+  };
+  print("rotationMatrix passes your test", passesRotationTest(rotationMatrix) ? "yes" : "no");
+  print("a rotation by degrees passes it", passesRotationTest(byDegrees) ? "yes" : "no");
 }

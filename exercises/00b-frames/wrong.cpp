@@ -154,7 +154,7 @@ return {std::atan(R(1, 0) / R(0, 0)), -std::asin(R(2, 0)), std::atan(R(2, 1) / R
 
 // <variant sign_of_cosine> caught by: euler-angles
 // mistake: Forgets the minus in the first angle of 3-1-3.
-// ask: Has the second argument of the first atan2 the wrong sign?
+// ask: Does the second argument of the first atan2 have the wrong sign?
 // <solution eulerAngles>
 if (convention == Convention::k313)
   return {std::atan2(R(0, 2), R(1, 2)), std::acos(R(2, 2)), std::atan2(R(2, 0), R(2, 1))};
@@ -176,7 +176,7 @@ return {std::atan2(R(1, 0), R(0, 0)), std::atan2(-R(2, 0), c), std::atan2(R(2, 1
 // in place of: if (c < 1e-6) return
 if (c < 1e-6) return {std::atan2(-R(0, 1), R(1, 1)), std::asin(-R(2, 0)), 0};
 
-// <variant axes_unmoved> caught by: euler-axes, euler-lost
+// <variant axes_unmoved> caught by: euler-axes
 // shown by: euler-axes
 // mistake: Leaves the axes where they are at zero.
 // ask: Are the axes not turned by the rotations before them?
@@ -186,7 +186,7 @@ Eigen::Matrix3d A;
 A << Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(zxz ? 0 : 1), Eigen::Vector3d::Unit(zxz ? 2 : 0);
 return A;
 
-// <variant second_axis_unmoved> caught by: euler-axes, euler-lost
+// <variant second_axis_unmoved> caught by: euler-axes
 // mistake: Leaves the second axis where it is at zero.
 // ask: Is each axis that of the frame as the rotations before it left the frame?
 // <solution turningAxes>
@@ -204,7 +204,7 @@ A << Eigen::Vector3d::UnitZ(), eulerMatrix(convention, {angles[0], 0, 0}).col(zx
     eulerMatrix(convention, angles).col(zxz ? 2 : 0);
 return eulerMatrix(convention, angles).transpose() * A;
 
-// <variant axes_all_turned> caught by: euler-axes, euler-lost
+// <variant axes_all_turned> caught by: euler-axes
 // mistake: Turns every axis by the whole rotation.
 // ask: Is every axis turned by all rotations? Only those before it turn it.
 // <solution turningAxes>
@@ -213,20 +213,20 @@ Eigen::Matrix3d A;
 A << Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(zxz ? 0 : 1), Eigen::Vector3d::Unit(zxz ? 2 : 0);
 return eulerMatrix(convention, angles) * A;
 
-// <variant axis_that_is_left> caught by: euler-lost
-// shown by: euler-lost
+// <variant axis_that_is_left> caught by: euler-axes
+// shown by: euler-axes
 // mistake: Returns the axis that occurs twice.
 // ask: Is it the axis that occurs twice? Rates of the angles can turn about it.
 // <solution lostAxis>
 return turningAxes(convention, angles).col(2);
 
-// <variant axis_of_pitch> caught by: euler-lost
+// <variant axis_of_pitch> caught by: euler-axes
 // mistake: Returns the axis of the second rotation.
 // ask: Is it the axis of the second rotation? The frame still turns about it.
 // <solution lostAxis>
 return turningAxes(convention, angles).col(1);
 
-// <variant rates_in_place_of_axis> caught by: euler-lost
+// <variant rates_in_place_of_axis> caught by: euler-axes
 // mistake: Returns the rates that turn nothing.
 // ask: Is it the direction of rates that turn nothing, in place of the axis?
 // <solution lostAxis>
@@ -307,43 +307,43 @@ int i = 0;
 for (const ChainJoint& joint : chain.joints) X = joint.X_PJ * jointMotion(joint, q[i++]) * X;
 return chain.X_ME * X;
 
-// <variant joint_at_the_origin> caught by: point, jacobian-robots
-// shown by: point
+// <variant joint_at_the_origin> caught by: columns, jacobian-robots
+// shown by: columns
 // mistake: Forgets p_i.
 // ask: Is p_i left out? A joint turns everything about itself, not about the origin of the world.
 // <solution pointJacobian>
 // in place of: for (const auto& [a, at, turns] : jointLines(chain, q)) J.co
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = turns ? a.cross(p).eval() : a;
 
-// <variant cross_product_reversed> caught by: point, jacobian-robots
+// <variant cross_product_reversed> caught by: columns, jacobian-robots
 // mistake: Exchanges the factors of the cross product.
 // ask: Is the cross product the wrong way round?
 // <solution pointJacobian>
 // in place of: for (const auto& [a, at, turns] : jointLines(chain, q)) J.co
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = turns ? (p - at).cross(a).eval() : a;
 
-// <variant point_at_the_end> caught by: point, jacobian-robots
+// <variant point_at_the_end> caught by: columns, jacobian-robots
 // mistake: Takes the origin of the end for the point.
 // ask: Is it the Jacobian of the origin of E? The point is at p_E.
 // <solution pointJacobian>
 // in place of: const Eigen::Vector3d p = (endPose(chain, q) * p_E.homogeneo
 const Eigen::Vector3d p = endPose(chain, q).topRightCorner(3, 1) + 0 * p_E;
 
-// <variant sliding_joint_turns> caught by: point
+// <variant sliding_joint_turns> caught by: columns
 // mistake: Treats sliding joints like turning ones.
 // ask: Do prismatic joints turn, too? Their columns are their axes.
 // <solution pointJacobian>
 // in place of: for (const auto& [a, at, turns] : jointLines(chain, q)) J.co
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = a.cross(p - at);
 
-// <variant sliding_joint_stays> caught by: point
+// <variant sliding_joint_stays> caught by: columns
 // mistake: Lets sliding joints move nothing.
 // ask: Are the columns of prismatic joints zero?
 // <solution pointJacobian>
 // in place of: for (const auto& [a, at, turns] : jointLines(chain, q)) J.co
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = (turns ? 1 : 0) * a.cross(p - at);
 
-// <variant axis_in_its_own_frame> caught by: point, jacobian-robots
+// <variant axis_in_its_own_frame> caught by: columns, jacobian-robots
 // mistake: Does not turn the axis into the world.
 // ask: Are the axes left in the frames of their joints?
 // <solution pointJacobian>
@@ -354,14 +354,14 @@ for (int i = 0; i < J.cols(); ++i) {
   J.col(i) = kind == JointKind::kRevolute ? a.cross(arm).eval() : a;
 }
 
-// <variant vector_not_turned> caught by: vector, jacobian-robots
+// <variant vector_not_turned> caught by: columns, jacobian-robots
 // mistake: Takes v_E for a vector in the world.
 // ask: Is v_E not turned into the axes of the world?
 // <solution vectorJacobian>
 int i = 0;
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = (turns ? 1 : 0) * a.cross(v_E);
 
-// <variant vector_like_a_point> caught by: vector, jacobian-robots
+// <variant vector_like_a_point> caught by: columns, jacobian-robots
 // mistake: Treats the vector like a point.
 // ask: Is the vector treated like a point? Where a joint is does not matter to directions.
 // <solution vectorJacobian>
@@ -369,7 +369,7 @@ const Eigen::Vector3d v = (endPose(chain, q) * v_E.homogeneous()).head<3>();
 int i = 0;
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = (turns ? 1 : 0) * a.cross(v - at);
 
-// <variant sliding_joint_turns_vector> caught by: vector
+// <variant sliding_joint_turns_vector> caught by: columns
 // mistake: Lets sliding joints turn the vector.
 // ask: Do prismatic joints turn the vector? They only move it.
 // <solution vectorJacobian>
@@ -483,3 +483,40 @@ for (int i = 0; i < q.size(); ++i) X = screwMotion(screws[static_cast<std::size_
 // ask: Does X_WE0 come first? The screws are those of the world.
 // <solution endPoseByScrews>
 for (int i = 0; i < q.size(); ++i) X = X * screwMotion(screws[static_cast<std::size_t>(i)], q[i]);
+
+// <variant test_accepts_everything> caught by: rotation-test
+// mistake: Accepts every function.
+// <solution passesRotationTest>
+return candidate(Eigen::Vector3d::UnitX(), 1).allFinite();
+
+// <variant test_of_lengths> caught by: rotation-test
+// mistake: Tests only whether lengths and right angles are kept.
+// <solution passesRotationTest>
+for (int i = 0; i < 3; ++i) {
+  const Eigen::Matrix3d R = candidate(Eigen::Vector3d::Unit(i), 1);
+  if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-11) return false;
+}
+return true;
+
+// <variant test_by_equality> caught by: rotation-test
+// mistake: Wants the very numbers of its own rotationMatrix().
+// <solution passesRotationTest>
+for (double angle = -3; angle <= 3; angle += 0.25)
+  for (int i = 0; i < 3; ++i)
+    if (candidate(Eigen::Vector3d::Unit(i), angle) != rotationMatrix(Eigen::Vector3d::Unit(i), angle))
+      return false;
+return true;
+
+// <variant test_without_zero> caught by: rotation-test
+// mistake: Never tries the angle 0.
+// <solution passesRotationTest>
+// in place of: std::vector<double> turns = {0, 1e-5, -1e-5, pi, -pi};
+std::vector<double> turns = {1e-5, -1e-5, pi, -pi};
+// in place of: for (double angle = -3; angle <= 3; angle += 0.25) turns.push_back(angle);
+for (double angle = -3.1; angle <= 3; angle += 0.25) turns.push_back(angle);
+
+// <variant test_blind_to_nan> caught by: rotation-test
+// mistake: Takes what is not a number for right, as no comparison with it holds.
+// <solution passesRotationTest>
+// in place of: if (!(off < 1e-11)) return false;
+if (off > 1e-11) return false;
