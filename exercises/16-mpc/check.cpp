@@ -43,33 +43,13 @@ void predicts(Check& check, Student& student, const Plant& plant, int N) {
   const Prediction got = student.predicted(plant, N), wanted = measuredPrediction(plant, N);
   const Eigen::Index n = plant.A.rows(), m = plant.B.cols();
   const double tolerance = 1e-9 * (1 + wanted.Su.cwiseAbs().maxCoeff() + wanted.Sx.cwiseAbs().maxCoeff());
-  Eigen::MatrixXd late(N * n, n);
-  late << Eigen::MatrixXd::Identity(n, n), wanted.Sx.topRows((N - 1) * n);
-  Eigen::MatrixXd onlyNow = Eigen::MatrixXd::Zero(N * n, N * m), reversed = onlyNow, extra = onlyNow,
-                  once = onlyNow;
-  for (int row = 0; row < N; ++row) {
-    onlyNow.block(row * n, row * m, n, m) = plant.B;
-    for (int k = 0; k <= row; ++k) {
-      const Eigen::MatrixXd effect = wanted.Su.block((row - k) * n, 0, n, m);
-      reversed.block(k * n, row * m, n, m) = effect;
-      extra.block(row * n, k * m, n, m) = plant.A * effect;
-      once.block(row * n, k * m, n, m) = wanted.Su.block(row * n, 0, n, m);
-    }
-  }
   check.shape("Sx", got.Sx, N * n, n);
   check.shape("Su", got.Su, N * n, N * m);
   {
-    const auto shifted = check.suspect("Does Sx begin with x_0? It begins with x_1.", late);
     const auto shown =
         check.show([&] { return Evidence{.figures = {rex::grading::comparison("Sx", got.Sx, wanted.Sx)}}; });
     check.near("Sx", got.Sx, wanted.Sx, tolerance);
   }
-  const auto forgets =
-      check.suspect("Does a control act on the next state only? It acts on all later ones.", onlyNow);
-  const auto early =
-      check.suspect("Do controls act on states before them? u_t acts from x_{t+1} on.", reversed);
-  const auto twice = check.suspect("Is there one A too many? x_{t+1} contains B u_t.", extra);
-  const auto same = check.suspect("Does each control act like u_0? It acts for fewer steps.", once);
   const auto shown =
       check.show([&] { return Evidence{.figures = {rex::grading::comparison("Su", got.Su, wanted.Su)}}; });
   check.near("Su", got.Su, wanted.Su, tolerance);
@@ -92,35 +72,21 @@ void costs(Check& check, Student& student, const Plant& plant, const Costs& weig
                                     {"N", N},
                                     {"x", x}});
   const Eigen::Index size = N * plant.B.cols();
-  const auto measured = [&](const Costs& by) {
-    return measuredQuadratic(size, [&](const Eigen::VectorXd& U) { return costOf(plant, by, x, U); });
-  };
-  const Quadratic got = student.planCost(plant, weights, N, x), wanted = measured(weights);
-  Costs noEnd = weights, noControls = weights, endAlways = weights, noLast = weights;
-  noEnd.F = weights.Q;
-  noControls.R *= 0;
-  endAlways.Q = weights.F;
-  noLast.F *= 0;
-  const Quadratic withoutEnd = measured(noEnd), withoutControls = measured(noControls),
-                  withEnds = measured(endAlways), withoutLast = measured(noLast);
+  const Quadratic got = student.planCost(plant, weights, N, x),
+                  wanted = measuredQuadratic(
+                      size, [&](const Eigen::VectorXd&U) { return costOf(plant, weights, x, U); });
   const double tolerance = 1e-9 * (1 + wanted.H.cwiseAbs().maxCoeff() + wanted.g.cwiseAbs().maxCoeff() +
                                    std::abs(costOf(plant, weights, x, Eigen::VectorXd::Zero(size))));
   check.shape("H", got.H, size, size);
   check.shape("g", got.g, size, 1);
-  const auto require = [&](const std::string& name, const Eigen::MatrixXd& mine, const Eigen::MatrixXd& right,
-                           const auto& part) {
-    const auto half =
-        check.suspect("Is there a factor of 2 missing? The cost is 1/2 U^T H U + g^T U.", right / 2);
-    const auto end = check.suspect("Is the last state weighted by Q? It is weighted by F.", part(withoutEnd));
-    const auto dear = check.suspect("Are controls for free? R belongs to H.", part(withoutControls));
-    const auto ends = check.suspect("Are all states weighted by F? Only the last one is.", part(withEnds));
-    const auto last = check.suspect("Does the last state cost nothing?", part(withoutLast));
+  const auto require = [&](const std::string& name, const Eigen::MatrixXd& mine,
+                           const Eigen::MatrixXd& right) {
     const auto shown =
         check.show([&] { return Evidence{.figures = {rex::grading::comparison(name, mine, right)}}; });
     check.near(name, mine, right, tolerance);
   };
-  require("H", got.H, wanted.H, [](const Quadratic& q) -> Eigen::MatrixXd { return q.H; });
-  require("g", got.g, wanted.g, [](const Quadratic& q) -> Eigen::MatrixXd { return q.g; });
+  require("H", got.H, wanted.H);
+  require("g", got.g, wanted.g);
 }
 
 void costsSled(Check& check, Student& student) {
@@ -157,16 +123,6 @@ void goes(Check& check, Student& student, const Regulated& r) {
   const Eigen::MatrixXd got = student.costToGo(r.plant, Q, R);
   check.shape("F of costToGo", got, A.rows(), A.rows());
   const double scale = wanted.cwiseAbs().maxCoeff();
-  // One step more; and what states cost under the best controller.
-  const Eigen::MatrixXd closed = A - B * r.right.K, freeControl = rex::solveDiscreteLyapunov(closed, Q);
-  const Eigen::MatrixXd gain = rex::solve(R + B.transpose() * Q * B, B.transpose() * Q * A);
-  const Eigen::MatrixXd once = Q + A.transpose() * Q * (A - B * gain);
-  const auto now =
-      check.suspect("Is it Q? Q says what one state costs, F what all of them cost together.", Q);
-  const auto single = check.suspect("Is it the cost of a single step more? All later ones cost, too.", once);
-  const auto later = check.suspect("Does the cost begin one step later?", wanted - Q);
-  const auto uncontrolled =
-      check.suspect("Are controls for free? They belong to the cost of all times, too.", freeControl);
   const auto skew = check.ask("Is F not symmetric? Rounding errors may grow from step to step.",
                               (got - got.transpose()).cwiseAbs().maxCoeff() > 1e-6 * scale);
   const auto early =
@@ -194,25 +150,14 @@ void moves(Check& check, Student& student, const BoxedCase& c) {
   const Eigen::VectorXd got = student.bestMoves(c.cost, c.lower, c.upper, z);
   // The minimum of a parabola through three values, for each number.
   const auto f = [&](const Eigen::VectorXd& at) { return .5 * at.dot(c.cost.H * at) + c.cost.g.dot(at); };
-  Eigen::VectorXd free(size), slope(size);
+  Eigen::VectorXd free(size);
   for (Eigen::Index i = 0; i < size; ++i) {
     Eigen::VectorXd more = z, less = z;
     more[i] += 1;
     less[i] -= 1;
-    slope[i] = (f(more) - f(less)) / 2;
-    free[i] = -slope[i] / (f(more) - 2 * f(z) + f(less));
+    free[i] = (f(less) - f(more)) / 2 / (f(more) - 2 * f(z) + f(less));
   }
   const Eigen::VectorXd wanted = within(z + free, c.lower, c.upper) - z;
-  const Eigen::VectorXd together = -rex::solve(c.cost.H, c.cost.H * z + c.cost.g);
-  const auto boundless = check.suspect("Are the bounds forgotten?", free);
-  const auto places =
-      check.suspect("Are these the best positions? Wanted is by how much z_i moves.", z + wanted);
-  const auto steep = check.suspect("Is the slope taken for the way? A steep parabola has a near minimum.",
-                                   within(z - slope, c.lower, c.upper) - z);
-  const auto joint = check.suspect("Do all numbers move together? Each moves alone, the others stay.",
-                                   within(z + together, c.lower, c.upper) - z);
-  const auto cut = check.suspect("Is the move cut off by the bounds? They hold for the position after it.",
-                                 within(free, c.lower, c.upper));
   const auto shown = check.show(
       [&] { return alongRow("bestMoves", "number", "move", got.transpose(), wanted.transpose()); });
   check.shape("bestMoves", got, size, 1);

@@ -3,6 +3,7 @@
 
 // <variant acts_on_the_past> caught by: predict, more-predictions
 // mistake: rows and columns of the blocks are mixed up.
+// ask: Do controls act on states before them? u_t acts from x_{t+1} on.
 // <solution predicted>
 Eigen::MatrixXd power = Eigen::MatrixXd::Identity(n, n);
 for (int age = 0; age < N; ++age, power = (plant.A * power).eval()) {
@@ -12,6 +13,7 @@ for (int age = 0; age < N; ++age, power = (plant.A * power).eval()) {
 
 // <variant acts_once> caught by: predict, more-predictions
 // mistake: a control acts on the next state only.
+// ask: Does a control act on the next state only? It acts on all later ones.
 // <solution predicted>
 Eigen::MatrixXd power = plant.A;
 for (int t = 0; t < N; ++t, power = (power * plant.A).eval()) {
@@ -21,6 +23,7 @@ for (int t = 0; t < N; ++t, power = (power * plant.A).eval()) {
 
 // <variant one_step_late> caught by: predict, more-predictions
 // mistake: the effect of a control is one power of A too high.
+// ask: Is there one A too many? x_{t+1} contains B u_t.
 // <solution predicted>
 Eigen::MatrixXd power = plant.A;
 for (int age = 0; age < N; ++age, power = (plant.A * power).eval()) {
@@ -28,15 +31,24 @@ for (int age = 0; age < N; ++age, power = (plant.A * power).eval()) {
   for (int k = 0; k + age < N; ++k) p.Su.block((k + age) * n, k * m, n, m) = power * plant.B;
 }
 
+// <variant all_like_the_first> caught by: predict, more-predictions
+// mistake: a later control acts as long as the first one.
+// ask: Does each control act like u_0? It acts for fewer steps.
+// <solution predicted>
+// in place of: p.Su.block(t * n, t * m, n, m) = plant.B;
+for (int k = 1; k <= t; ++k) p.Su.block(t* n, k* m, n, m) = p.Su.block(t * n, 0, n, m).eval();
+
 // <variant sx_begins_with_x0> caught by: predict, more-predictions
 // shown by: predict
 // mistake: the first rows are those of x_0.
+// ask: Does Sx begin with x_0? It begins with x_1.
 // <solution predicted>
 // in place of: p.Sx.topRows(n) = plant.A;
 p.Sx.topRows(n) = Eigen::MatrixXd::Identity(n, n);
 
 // <variant free_controls> caught by: plan-cost, more-costs
 // mistake: controls cost nothing.
+// ask: Are controls for free? R belongs to H.
 // <solution planCost>
 const Eigen::Index n = plant.A.rows();
 const Prediction p = predicted(plant, N);
@@ -47,6 +59,7 @@ return {2 * p.Su.transpose() * weighted, 2 * weighted.transpose() * (p.Sx * x)};
 
 // <variant half_the_cost> caught by: plan-cost, more-costs
 // mistake: forgets that the quadratic form has a factor of one half.
+// ask: Is there a factor of 2 missing? The cost is 1/2 U^T H U + g^T U.
 // <solution planCost>
 // in place of: weighted.middleRows(t * n, n) = (t + 1 < N ? costs.Q : ... for (int t = 0; t < N; ++t)
 weighted.middleRows(t* n, n) = (t + 1 < N ? costs.Q : costs.F) * p.Su.middleRows(t * n, n);
@@ -56,6 +69,7 @@ for (int t = 0; t < N; ++t) cost.H.block(t* m, t* m, m, m) += costs.R;
 // <variant no_end> caught by: plan-cost, more-costs
 // shown by: plan-cost
 // mistake: weighs the last state like all others.
+// ask: Is the last state weighted by Q? It is weighted by F.
 // <solution planCost>
 const Eigen::Index n = plant.A.rows(), m = plant.B.cols();
 const Prediction p = predicted(plant, N);
@@ -65,8 +79,23 @@ Quadratic cost{2 * p.Su.transpose() * weighted, 2 * weighted.transpose() * (p.Sx
 for (int t = 0; t < N; ++t) cost.H.block(t* m, t* m, m, m) += 2 * costs.R;
 return cost;
 
+// <variant all_weighted_like_the_end> caught by: plan-cost, more-costs
+// mistake: weighs all states like the last one.
+// ask: Are all states weighted by F? Only the last one is.
+// <solution planCost>
+// in place of: weighted.middleRows(t * n, n) =
+weighted.middleRows(t* n, n) = costs.F * p.Su.middleRows(t * n, n);
+
+// <variant end_for_free> caught by: plan-cost, more-costs
+// mistake: the last state costs nothing.
+// ask: Does the last state cost nothing?
+// <solution planCost>
+// in place of: weighted.middleRows(t * n, n) =
+weighted.middleRows(t* n, n) = (t + 1 < N ? 1. : 0.) * costs.Q * p.Su.middleRows(t * n, n);
+
 // <variant control_forgotten_in_the_end> caught by: cost-to-go, more-to-go
 // mistake: adds up what states cost under the best controller, and not its controls.
+// ask: Are controls for free? They belong to the cost of all times, too.
 // <solution costToGo>
 const auto &A = plant.A, &B = plant.B;
 Eigen::MatrixXd F = Q, states = Q;
@@ -93,13 +122,28 @@ return F;
 // <variant one_step_to_go> caught by: cost-to-go, more-to-go
 // shown by: cost-to-go
 // mistake: looks one step ahead only.
+// ask: Is it the cost of a single step more? All later ones cost, too.
 // <solution costToGo>
 const auto &A = plant.A, &B = plant.B;
 const Eigen::MatrixXd gain = solve(R + B.transpose() * Q * B, B.transpose() * Q * A);
 return Q + A.transpose() * Q * (A - B * gain);
 
+// <variant state_costs_to_go> caught by: cost-to-go, more-to-go
+// mistake: takes what one state costs.
+// ask: Is it Q? Q says what one state costs, F what all of them cost together.
+// <solution costToGo>
+return Q;
+
+// <variant without_the_present> caught by: cost-to-go, more-to-go
+// mistake: leaves out what the present state costs.
+// ask: Does the cost begin one step later?
+// <solution costToGo>
+// in place of: return F;
+return F - Q;
+
 // <variant all_move_together> caught by: moves
 // mistake: a Newton step of all numbers, cut off.
+// ask: Do all numbers move together? Each moves alone, the others stay.
 // <solution bestMoves>
 const Eigen::VectorXd slope = cost.H * z + cost.g;
 const Eigen::VectorXd best = z - solve(cost.H, slope);
@@ -108,11 +152,13 @@ return best.cwiseMax(lower).cwiseMin(upper) - z;
 // <variant moves_without_bounds> caught by: moves
 // shown by: moves
 // mistake: forgets the bounds.
+// ask: Are the bounds forgotten?
 // <solution bestMoves>
 return -Eigen::VectorXd(cost.H * z + cost.g).cwiseQuotient(cost.H.diagonal());
 
 // <variant position_for_a_move> caught by: moves
 // mistake: returns where the numbers would go.
+// ask: Are these the best positions? Wanted is by how much z_i moves.
 // <solution bestMoves>
 const Eigen::VectorXd slope = cost.H * z + cost.g;
 const Eigen::VectorXd best = z - slope.cwiseQuotient(cost.H.diagonal());
@@ -120,9 +166,17 @@ return best.cwiseMax(lower).cwiseMin(upper);
 
 // <variant slope_for_a_move> caught by: moves
 // mistake: takes the slope for the move.
+// ask: Is the slope taken for the way? A steep parabola has a near minimum.
 // <solution bestMoves>
 const Eigen::VectorXd best = z - (cost.H * z + cost.g);
 return best.cwiseMax(lower).cwiseMin(upper) - z;
+
+// <variant moves_between_the_bounds> caught by: moves
+// mistake: takes the bounds of a position for those of a move.
+// ask: Is the move cut off by the bounds? They hold for the position after it.
+// <solution bestMoves>
+const Eigen::VectorXd slope = cost.H * z + cost.g;
+return (-slope.cwiseQuotient(cost.H.diagonal())).cwiseMax(lower).cwiseMin(upper);
 
 // <variant all_at_once> caught by: box
 // mistake: corrects the guess of what is held everywhere at once, and gives up in the end.
@@ -257,23 +311,49 @@ drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(
 
 // <variant distance_for_a_rate> caught by: rate-bounds, rates, line, more-hands
 // mistake: lets a joint cover the distance to its limit in a second, not in a step.
+// ask: Is the distance to a limit taken for a rate? It must not be covered before the step ends.
 // <solution rateBounds>
 const Eigen::VectorXd &most = limits.rateMax, least = -most;
 return {(limits.qMin - q).cwiseMax(least).cwiseMin(most), (limits.qMax - q).cwiseMax(least).cwiseMin(most)};
 
+// <variant distance_times_tau> caught by: rate-bounds, rates, line, more-hands
+// mistake: multiplies by the time instead of dividing by it.
+// ask: Is the distance to a limit multiplied by tau? A rate is a distance divided by a time.
+// <solution rateBounds>
+const Eigen::VectorXd &most = limits.rateMax, least = -most;
+return {((limits.qMin - q) * tau).cwiseMax(least).cwiseMin(most),
+        ((limits.qMax - q) * tau).cwiseMax(least).cwiseMin(most)};
+
+// <variant limit_for_a_distance> caught by: rate-bounds, rates, line, more-hands
+// mistake: leaves out where the joints are.
+// ask: Is q left out? Only what is left up to the limit counts.
+// <solution rateBounds>
+const Eigen::VectorXd &most = limits.rateMax, least = -most;
+return {(limits.qMin / tau).cwiseMax(least).cwiseMin(most),
+        (limits.qMax / tau).cwiseMax(least).cwiseMin(most)};
+
+// <variant any_speed> caught by: rate-bounds, more-hands
+// mistake: forgets how fast joints may turn.
+// ask: Are the limits of speed forgotten?
+// <solution rateBounds>
+return {(limits.qMin - q) / tau, (limits.qMax - q) / tau};
+
 // <variant only_speeds> caught by: rate-bounds, rates, line, more-hands
 // mistake: forgets that joints have limits.
+// ask: Are the limits of the joints forgotten?
 // <solution rateBounds>
 return {-limits.rateMax, limits.rateMax};
 
 // <variant returns_at_once> caught by: rate-bounds, more-hands
 // mistake: bounds cross if a joint is too far beyond its limit.
+// ask: Is a joint beyond its limit asked to return faster than it may?
 // <solution rateBounds>
 return {((limits.qMin - q) / tau).cwiseMax(-limits.rateMax),
         ((limits.qMax - q) / tau).cwiseMin(limits.rateMax)};
 
 // <variant stays_outside> caught by: rate-bounds, rates, more-hands
 // mistake: a joint beyond its limit need not return.
+// ask: May a joint beyond its limit stay where it is? It must return.
 // <solution rateBounds>
 const Eigen::VectorXd none = Eigen::VectorXd::Zero(q.size());
 return {((limits.qMin - q) / tau).cwiseMax(-limits.rateMax).cwiseMin(none),
@@ -281,27 +361,57 @@ return {((limits.qMin - q) / tau).cwiseMax(-limits.rateMax).cwiseMin(none),
 
 // <variant against_the_hand> caught by: rates, line, more-hands
 // mistake: the wrong sign between rates and speed.
+// ask: Is it J w + s v? The hand shall move at s v.
 // <solution rateCost>
 // in place of: rows << task.J, -task.v;
 rows << task.J, task.v;
 
 // <variant half_the_rates> caught by: rates, more-hands
 // mistake: forgets that the quadratic form has a factor of one half.
+// ask: Is there a factor of 2 missing? The cost is 1/2 z^T H z + g^T z.
 // <solution rateCost>
 // in place of: cost.H = 2 * rows.transpose() * task.W * rows; ... cost.g[n]
 cost.H = rows.transpose() * task.W * rows;
 cost.H.diagonal().head(n).array() += task.damping;
 cost.H(n, n) += task.slowness;
-cost.g[n] = -2 * task.slowness;
+cost.g[n] = -task.slowness;
+
+// <variant half_the_slope> caught by: rates, more-hands
+// mistake: forgets the factor in g.
+// ask: Is there a factor of 2 missing? The cost is 1/2 z^T H z + g^T z.
+// <solution rateCost>
+// in place of: cost.g[n] = -2 * task.slowness;
+cost.g[n] = -task.slowness;
+
+// <variant rates_for_free> caught by: rates, more-hands
+// mistake: leaves out the damping.
+// ask: Are rates for free? The damping belongs to H.
+// <solution rateCost>
+// in place of: cost.H.diagonal().head(n).array() += 2 * task.damping;
+
+// <variant damping_squared> caught by: rates, more-hands
+// mistake: squares the damping.
+// ask: Is the damping squared?
+// <solution rateCost>
+// in place of: cost.H.diagonal().head(n).array() += 2 * task.damping;
+cost.H.diagonal().head(n).array() += 2 * task.damping * task.damping;
+
+// <variant slowness_not_in_h> caught by: rates, more-hands
+// mistake: expands (1 - s)^2 without s^2.
+// ask: Is slowness s^2 missing in H?
+// <solution rateCost>
+// in place of: cost.H(n, n) += 2 * task.slowness;
 
 // <variant share_damped> caught by: rates, more-hands
 // mistake: damps all numbers of z.
+// ask: Is the share damped, too?
 // <solution rateCost>
 // in place of: cost.H.diagonal().head(n).array() += 2 * task.damping;
 cost.H.diagonal().array() += 2 * task.damping;
 
 // <variant unweighted> caught by: rates, more-hands
 // mistake: leaves out W.
+// ask: Is W left out?
 // <solution rateCost>
 // in place of: cost.H = 2 * rows.transpose() * task.W * rows;
 cost.H = 2 * rows.transpose() * rows;
