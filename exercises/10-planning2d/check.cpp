@@ -82,10 +82,8 @@ void bugsAnywhere(Check& check, Student& student) {
 
 void wavesAgree(Check& check, Student& student, const CellMap& map, MapCell goal) {
   const std::string input = check.input();
-  const GridMap grid = gridMapOf(map);
   const std::vector<int> got = student.waveNumbers(map, goal),
-                         wanted = wavefront(grid, {goal.x, goal.y}, Connectivity::kEight),
-                         four = wavefront(grid, {goal.x, goal.y}, Connectivity::kFour);
+                         wanted = wavefront(gridMapOf(map), {goal.x, goal.y}, Connectivity::kEight);
   MapCell here = goal;
   const auto shown = check.show([&] { return wavesSeen(map, goal, got, wanted, here); });
   check.near("number of numbers of waveNumbers", static_cast<double>(got.size()),
@@ -94,8 +92,6 @@ void wavesAgree(Check& check, Student& student, const CellMap& map, MapCell goal
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     here = map.cellAt(i);
     check.input(fmt::format("{}, cell {}, goal {}", input, nameOf(here), nameOf(goal)));
-    const auto sides =
-        check.suspect("Are the diagonal neighbours left out?", Eigen::MatrixXd::Constant(1, 1, four[i]));
     check.near(
         map.isFree(here) ? "number of a free cell by waveNumbers" : "number of a blocked cell by waveNumbers",
         got[i], wanted[i], 0);
@@ -123,8 +119,8 @@ void arcFits(Check& check, const CellMap& map, const ArcEnds& here, double lengt
              map.isFree(at) && map.isFree(end) && touches(at, end) && !(at == end), where);
   holdsWhere(check, "no diagonal arc of cellNetwork cuts the corner of a blocked cell",
              map.isFree({end.x, at.y}) && map.isFree({at.x, end.y}), where);
-  const auto one = check.suspect("Are diagonal steps as long as the others? They are sqrt(2) m long.",
-                                 Eigen::MatrixXd::Constant(1, 1, 1));
+  const auto one =
+      check.ask("Are diagonal steps as long as the others? They are sqrt(2) m long.", length == 1);
   check.near("length of an arc of cellNetwork", length, std::hypot(end.x - at.x, end.y - at.y), 1e-12, "m");
 }
 
@@ -536,15 +532,8 @@ void estimates(Check& check, Student& student) {
     const std::vector<double> distances = distancesOn(map, to, Connectivity::kEightWithRoom);
     for (int j = 0; j < 20; ++j) {
       const MapCell from = j == 0 ? to : randomFreeCell(map, rng);
-      const Eigen::Vector2d a(from.x, from.y), b(to.x, to.y), apart = (b - a).cwiseAbs();
-      check.input("two cells", {{"from", a}, {"to", b}});
-      const auto suspect = [&](const char* question, double value) {
-        return check.suspect(question, Eigen::MatrixXd::Constant(1, 1, value));
-      };
-      const auto sum = suspect("Are diagonal steps left out?", apart.sum());
-      const auto line = suspect("Is it the straight line? Steps lead to the eight neighbours.", apart.norm());
-      const auto most =
-          suspect("Is a diagonal step as long as the others? It is sqrt(2) m long.", apart.maxCoeff());
+      check.input("two cells",
+                  {{"from", Eigen::Vector2d(from.x, from.y)}, {"to", Eigen::Vector2d(to.x, to.y)}});
       check.near("emptyMapDistance", student.emptyMapDistance(from, to), distances[map.placeOf(from)], 1e-9,
                  "m");
     }

@@ -25,6 +25,13 @@ for (std::size_t place = 0; place < numbers.size(); ++place)
   grid.setBlocked({map.cellAt(place).x, map.cellAt(place).y}, numbers[place] != 0);
 numbers = wavefront(grid, {goal.x, goal.y}, Connectivity::kEight);
 
+// <variant sides_only> caught by: grid-wave
+// mistake: only the four neighbours at the sides get a number.
+// ask: Are the diagonal neighbours left out?
+// <solution waveNumbers>
+// in place of: if (!map.isFree({x, y}) || numbers[map.placeOf({x, y})] != 0) continue;
+if ((x != cell.x && y != cell.y) || !map.isFree({x, y}) || numbers[map.placeOf({x, y})] != 0) continue;
+
 // <variant arc_twice> caught by: grid-network
 // mistake: one arc of each cell replaces its last one: the number of arcs is right, but one occurs twice.
 // <solution cellNetwork>
@@ -73,6 +80,7 @@ const auto best = std::min_element(
 
 // <variant pushes_without_end> caught by: field-potential
 // mistake: blocks beyond their reach push, too: the square hides the sign.
+// ask: Do blocks beyond their reach push, too? The square hides the sign.
 // <solution fieldPotential>
 // in place of: const double distance = (p - nearestPoint(block, p)).norm(); ... const double excess = 1 /
 const double excess = 1 / (p - nearestPoint(block, p)).norm() - 1 / gains.reach;
@@ -80,9 +88,46 @@ const double excess = 1 / (p - nearestPoint(block, p)).norm() - 1 / gains.reach;
 // in place of: const double distance = away.norm(); ... const double excess = 1 / distance - 1 / gains.reach;
 const double distance = away.norm(), excess = 1 / distance - 1 / gains.reach;
 
+// <variant blocks_unfelt> caught by: field-potential, field-gradient
+// mistake: leaves out the repulsion.
+// ask: Is the repulsion left out?
+// <solution fieldPotential>
+U = gains.attraction * (p - goal).squaredNorm() / 2;
+// <solution fieldGradient>
+gradient = gains.attraction * (p - goal);
+
+// <variant repulsion_subtracted> caught by: field-potential
+// mistake: the potential is lower near blocks.
+// ask: Is the repulsion subtracted?
+// <solution fieldPotential>
+// in place of: U += gains.repulsion * excess * excess / 2;
+U -= gains.repulsion * excess * excess / 2;
+
+// <variant repulsion_not_halved> caught by: field-potential
+// mistake: forgets one half.
+// ask: Is the repulsion not halved?
+// <solution fieldPotential>
+// in place of: U += gains.repulsion * excess * excess / 2;
+U += gains.repulsion * excess * excess;
+
+// <variant attraction_not_halved> caught by: field-potential
+// mistake: forgets the other half.
+// ask: Is the attraction not halved?
+// <solution fieldPotential>
+// in place of: U = gains.attraction * (p - goal).squaredNorm() / 2;
+U = gains.attraction * (p - goal).squaredNorm();
+
+// <variant push_doubled> caught by: field-gradient
+// mistake: the gradient of a repulsion that is not halved.
+// ask: Is the repulsion twice too large?
+// <solution fieldGradient>
+// in place of: gradient -= gains.repulsion * excess / (distance * distance * distance) * away;
+gradient -= 2 * gains.repulsion * excess / (distance * distance * distance) * away;
+
 // <variant blocks_attract> caught by: field-gradient, field-slide, field-any-yard
 // shown by: field-slide
 // mistake: the repulsion has the wrong sign.
+// ask: Do blocks attract? Their repulsion has the wrong sign.
 // <solution fieldGradient>
 // in place of: gradient -= gains.repulsion * excess / (distance * distance * distance) * away;
 gradient += gains.repulsion * excess / (distance * distance * distance) * away;
@@ -220,8 +265,21 @@ for (std::size_t i : wayDown(all, dijkstra(all, points.size() - 1), points.size(
 
 // <variant estimates_too_much> caught by: astar-estimate
 // mistake: the sum of both differences, as if there were no diagonals; A* may then find a detour.
+// ask: Are diagonal steps left out?
 // <solution emptyMapDistance>
 return std::abs(to.x - from.x) + std::abs(to.y - from.y);
+
+// <variant straight_line> caught by: astar-estimate
+// mistake: the distance as the crow flies.
+// ask: Is it the straight line? Steps lead to the eight neighbours.
+// <solution emptyMapDistance>
+return std::hypot(to.x - from.x, to.y - from.y);
+
+// <variant larger_difference> caught by: astar-estimate
+// mistake: a diagonal step counts one.
+// ask: Is a diagonal step as long as the others? It is sqrt(2) m long.
+// <solution emptyMapDistance>
+return std::max(std::abs(to.x - from.x), std::abs(to.y - from.y));
 
 // <variant estimate_forgotten> caught by: astar-known-maps, astar-anything
 // mistake: uses the estimate of the start for every node: that is Dijkstra, which looks everywhere.
