@@ -202,7 +202,8 @@ void followsTheCosine(Check& check, Student& student) {
       return std::abs(student.followForce({std::cos(t), velocity}, t, kMass, regime) + kMass * std::cos(t)) <
              1e-9;
     };
-    const auto sign = check.ask("Has the velocity of the reference the wrong sign?", isRightAt(std::sin(t)));
+    const auto sign =
+        check.ask("Does the velocity of the reference have the wrong sign?", isRightAt(std::sin(t)));
     const auto still = check.ask("Is the velocity of the reference left out?", isRightAt(0));
     check.near("followForce on the reference",
                student.followForce({std::cos(t), -std::sin(t)}, t, kMass, regime), -kMass * std::cos(t), 1e-9,

@@ -40,7 +40,7 @@ inline void forceFits(rex::grading::Check& check, Student& student, const Transf
     isConstant = isConstant && std::abs(got.values[i][0] - got.values[0][0]) <= scale;
   }
   const auto back = check.ask("Is it the force at T - t? A push at time t moves the end by T - t.", isBack);
-  const auto opposite = check.ask("Has the force the opposite sign?", isOpposite);
+  const auto opposite = check.ask("Does the force have the opposite sign?", isOpposite);
   const auto constant = check.ask("Is the force the same all the time? It changes linearly.", isConstant);
   const auto noDrift = check.ask(
       "Is the drift T v left out? Without any force the point does not stay where it is.",

@@ -38,7 +38,8 @@ inline std::vector<rex::grading::Mistake> wrongByState(const CarSetup& car, cons
     wrong(1, 2) = dy;
     return wrong;
   };
-  const char* sign = "Has the derivative by the heading the right signs? Turn the car a little to the left.";
+  const char* sign =
+      "Does the derivative by the heading have the right signs? Turn the car a little to the left.";
   const Eigen::MatrixXd I = unitMatrix(3);
   return {{"Is the x that the step starts from left out? Its derivative is the unit matrix.", sum(A, I, -1)},
           {"Does the heading change nothing?", I},
@@ -134,7 +135,8 @@ inline std::vector<rex::grading::Mistake> wrongDerivatives(const CarSetup& car, 
     Eigen::MatrixXd wrong = J;
     wrong.col(2) = -J.col(2);
     mistakes.push_back(
-        {"Has the derivative by the heading the opposite sign? If the car turns left, what it sees turns "
+        {"Does the derivative by the heading have the opposite sign? If the car turns left, what it sees "
+         "turns "
          "right.",
          wrong});
     wrong.col(2).setZero();
@@ -148,7 +150,7 @@ inline std::vector<rex::grading::Mistake> wrongDerivatives(const CarSetup& car, 
   for (const auto& [question, factor] :
        {std::pair{"Is the bearing's derivative divided by the distance only once?", distance},
         {"Is the bearing's derivative not divided by the square of the distance?", distance * distance},
-        {"Has the bearing's derivative the opposite sign?", -1.}}) {
+        {"Does the bearing's derivative have the opposite sign?", -1.}}) {
     Eigen::MatrixXd wrong = J;
     wrong.row(1) *= factor;
     mistakes.push_back({question, wrong});

@@ -34,7 +34,7 @@ return {-2 * swing * v[1] * v[1], second};
 
 // <variant gravity_pulls_back> caught by: forces, lagrangian
 // mistake: the sign of the potential energy, as if the pendulum hung.
-// ask: Has gravity the sign of a hanging pendulum? theta is 0 upright.
+// ask: Does gravity have the sign of a hanging pendulum? theta is 0 upright.
 // <solution forceTerm>
 const double swing = racer.mB * racer.l * std::sin(q[1]);
 return {-swing * v[1] * v[1], swing* racer.g};
@@ -452,7 +452,7 @@ return {racer.r * y[3], theta};
 
 // <variant body_turns_back> caught by: sensed-pose, unseen-sensed
 // mistake: the sign of theta in the reading of the encoder.
-// ask: Has theta the wrong sign in x?
+// ask: Does theta have the wrong sign in x?
 // <solution sensedPose>
 // in place of: return {racer.r * (y[3] + theta), theta};
 return {racer.r * (y[3] - theta), theta};

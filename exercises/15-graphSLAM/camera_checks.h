@@ -111,7 +111,7 @@ inline void projectsExactly(rex::grading::Check& check, Student& student, const 
   check.near("pixels of the points by P of projectionFromPoints", pixelsBy(P, view.points), view.pixels, 1e-3,
              {{"Are the twelve numbers written column by column? The equations have them row by row.",
                pixelsBy(byColumns(view.P), view.points)},
-              {"Has the last row of P the wrong sign? Look at the signs of your equations.",
+              {"Does the last row of P have the wrong sign? Look at the signs of your equations.",
                pixelsBy(swapped, view.points)}},
              "pixels");
 }

@@ -68,11 +68,12 @@ inline void derivativesFit(rex::grading::Check& check, const EdgeJacobians& got,
   const auto jumps =
       check.ask("Is the difference of two headings not wrapped? It may jump by a whole turn.",
                 std::max(got.byI.row(2).cwiseAbs().maxCoeff(), got.byJ.row(2).cwiseAbs().maxCoeff()) > 100);
-  const char* ofJ = "Has it the sign of the derivative by pose i? Where j moves, the error moves along.";
+  const char* ofJ =
+      "Does it have the sign of the derivative by pose i? Where j moves, the error moves along.";
   const char* ofZ = "Is z left out of the rotation? The error is in the axes of where z puts j.";
   check.near("byI of edgeJacobians", got.byI, byI, 1e-5,
              {{"Does the heading of pose i move nothing but the heading? Pose j goes around it.", still},
-              {"Has the derivative by the heading of pose i the wrong sign?", opposite},
+              {"Does the derivative by the heading of pose i have the wrong sign?", opposite},
               {"Are byI and byJ exchanged?", byJ},
               {ofZ, turnedBack(byI, z[2])},
               {"Is the heading of pose i left out of the rotation?", turnedBack(byI, i[2])}});

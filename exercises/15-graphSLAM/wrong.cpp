@@ -27,7 +27,7 @@ for (int k = 0; k < 3; ++k) {
 
 // <variant second_sign> caught by: error-derivatives, equations-normal, adjust-streets
 // mistake: the derivative by pose j has the sign of that by pose i.
-// ask: Has it the sign of the derivative by pose i? Where j moves, the error moves along.
+// ask: Does it have the sign of the derivative by pose i? Where j moves, the error moves along.
 // <solution edgeJacobians>
 // in place of: jacobians.byI(1, 2) = -c * x - s * y;
 jacobians.byI(1, 2) = -c * x - s * y;
