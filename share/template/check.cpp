@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "grading/evidence.h"
@@ -31,11 +32,14 @@ void turnsAQuarter(Check& check, Student& student) {
 }
 
 void keepsTheLength(Check& check, Student& student) {
+  double largest = 0;
   check.forEachCase(20, [&](int) {
     const Eigen::Vector2d p = randomPoint(check.rng());
     const Eigen::Vector2d q = student.rotated(p, check.rng().uniform(-4, 4));
     check.near("distance from the origin", q.norm(), p.norm(), 1e-12, "m");
+    largest = std::max(largest, std::abs(q.norm() - p.norm()));
   });
+  check.record("largest error of a distance", largest, "m");
 }
 
 // <hidden>

@@ -471,6 +471,21 @@ void Check::keepRefused(const remote::AnswerRefused& refused) {
 
 std::string Check::asked() const { return worst_ && info_.group == Group::kVisible ? worst_->question : ""; }
 
+void Check::record(std::string name, double value, std::string unit, Better better) {
+  record_.reset();
+  recordsTime_ = false;
+  if (std::isfinite(value))
+    record_ = {.name = std::move(name),
+               .value = value,
+               .unit = std::move(unit),
+               .isMoreBetter = better == Better::kMore};
+}
+
+void Check::recordTime(std::string name) {
+  record(std::move(name), 0, "ms");
+  recordsTime_ = true;
+}
+
 CheckResult Check::judge(const std::function<void(Check&)>& run) {
   bool ended = false;
   try {
@@ -498,7 +513,12 @@ CheckResult Check::result() const {
                       .cases = cases_,
                       .casesHeld = casesPassed_};
   if (info_.group == Group::kVisible) verdict.worst = nearest_;
-  if (!worst_) return verdict;
+  if (!worst_) {
+    if (info_.group == Group::kHidden) return verdict;
+    verdict.record = record_;
+    verdict.remark = printable(remark_, kLongestText);
+    return verdict;
+  }
   verdict.status = worst_->outcome;
   verdict.message = printable(shortfallText(*worst_), kLongestText);
   verdict.property = worst_->property;

@@ -194,6 +194,17 @@ class Check {
   /// Any other requirement; the property is a statement: "the path starts at q0".
   void that(std::string_view property, bool holds);
 
+  /// Names a figure that may be better than points require: "length of the path". A visible check that passes
+  /// keeps the last one, and `rex test` shows how it changed over a student's attempts. None is kept if the
+  /// value is not finite.
+  enum class Better { kLess, kMore };
+  void record(std::string name, double value, std::string unit = "", Better better = Better::kLess);
+  /// The same for the CPU time of the program in this check, in milliseconds, which the grader measures.
+  void recordTime(std::string name);
+  bool recordsTime() const { return recordsTime_; }
+  /// Says what else the answers show, in a sentence: a visible check that passes keeps the last one.
+  void remark(std::string text) { remark_ = std::move(text); }
+
   /// Runs a function that states requirements for cases 0 to count - 1. Points are given in proportion to
   /// the cases that pass, rounded down. The report names the case that exceeds its limit most, relative to
   /// the limit; the first one if several are equal. A case also fails if the student's function throws; a
@@ -273,7 +284,10 @@ class Check {
   std::vector<std::string> questions_;
   std::optional<Evidence> evidence_;
   std::optional<Shortfall> worst_;  ///< the worst requirement that does not hold
-  WorstValue nearest_;              ///< the one nearest to its limit, of all that were measured
+  std::optional<Record> record_;
+  bool recordsTime_ = false;
+  std::string remark_;
+  WorstValue nearest_;  ///< the one nearest to its limit, of all that were measured
   double nearestExcess_ = -kBeyondMeasure;
   int requirements_ = 0;
   int cases_ = 0;

@@ -266,6 +266,7 @@ Attempt attempt(const RunnableCheck& check, const Grading& grading, std::uint64_
   });
   addUsage(run, fresh);
   if (!run.failure) run.failure = std::move(failure);
+  if (verdict.record && judge.recordsTime()) verdict.record->value = 1000 * run.cpuSeconds;
   if (run.failure) {
     verdict = failed(check.info, *run.failure, judge.input(), grading.hasSecretChecks);
   } else {

@@ -73,28 +73,30 @@ constexpr const char* kSchema = "grade-result/1";
 std::int64_t milliseconds(double seconds) { return std::llround(1000 * seconds); }
 
 Json checkToJson(const CheckResult& check) {
-  return {{"id", check.id},
-          {"part", check.part},
-          {"title", check.title},
-          {"group", check.group == Group::kVisible ? "visible" : "hidden"},
-          {"status", check.status ? toString(*check.status) : "not_run"},
-          {"points", check.points},
-          {"max_points", check.maxPoints},
-          {"message", check.message},
-          {"property", check.property},
-          {"expected", check.expected},
-          {"got", check.got},
-          {"tolerance", check.tolerance},
-          {"input", check.input},
-          {"worst",
-           {{"property", check.worst.property},
-            {"value", check.worst.value},
-            {"limit", check.worst.limit},
-            {"case", check.worst.caseNumber}}},
-          {"cases", check.cases},
-          {"cases_held", check.casesHeld},
-          {"function", check.function},
-          {"line", check.line}};
+  Json json{{"id", check.id},
+            {"part", check.part},
+            {"title", check.title},
+            {"group", check.group == Group::kVisible ? "visible" : "hidden"},
+            {"status", check.status ? toString(*check.status) : "not_run"},
+            {"points", check.points},
+            {"max_points", check.maxPoints},
+            {"message", check.message},
+            {"property", check.property},
+            {"expected", check.expected},
+            {"got", check.got},
+            {"tolerance", check.tolerance},
+            {"input", check.input},
+            {"worst",
+             {{"property", check.worst.property},
+              {"value", check.worst.value},
+              {"limit", check.worst.limit},
+              {"case", check.worst.caseNumber}}},
+            {"cases", check.cases},
+            {"cases_held", check.casesHeld},
+            {"function", check.function},
+            {"line", check.line}};
+  if (!check.remark.empty()) json["remark"] = check.remark;
+  return json;
 }
 
 Json compileToJson(const CompileResult& compile) {
@@ -111,12 +113,18 @@ Json compileToJson(const CompileResult& compile) {
 
 Json volatileToJson(const GradeResult& result) {
   Json checks = Json::array();
-  for (const CheckResult& check : result.checks)
+  for (const CheckResult& check : result.checks) {
     checks.push_back({{"id", check.id},
                       {"wall_ms", milliseconds(check.wallSeconds)},
                       {"cpu_ms", milliseconds(check.cpuSeconds)},
                       {"picture", check.picture},
                       {"replay", check.replay}});
+    if (const auto& record = check.record)
+      checks.back()["record"] = {{"name", record->name},
+                                 {"value", record->value},
+                                 {"unit", record->unit},
+                                 {"more_is_better", record->isMoreBetter}};
+  }
   return {{"usage",
            {{"cpu_ms", milliseconds(result.usage.cpuSeconds)},
             {"wall_ms", milliseconds(result.usage.wallSeconds)},
@@ -239,6 +247,7 @@ CheckResult readCheck(const Fields& fields) {
   worst.read("case", check.worst.caseNumber);
   fields.read("cases", check.cases);
   fields.read("cases_held", check.casesHeld);
+  fields.read("remark", check.remark);
   fields.read("function", check.function);
   fields.read("line", check.line);
   return check;
@@ -269,6 +278,15 @@ Limits readLimits(const Fields& fields) {
   return limits;
 }
 
+std::optional<Record> readRecord(const Fields& fields) {
+  Record record;
+  fields.read("name", record.name);
+  fields.read("value", record.value);
+  fields.read("unit", record.unit);
+  fields.read("more_is_better", record.isMoreBetter);
+  return record.name.empty() ? std::nullopt : std::optional(record);
+}
+
 void readVolatile(const Fields& fields, GradeResult& result) {
   const Fields usage = fields.object("usage");
   usage.readMilliseconds("cpu_ms", result.usage.cpuSeconds);
@@ -286,6 +304,7 @@ void readVolatile(const Fields& fields, GradeResult& result) {
       times.readMilliseconds("cpu_ms", check.cpuSeconds);
       times.read("picture", check.picture);
       times.read("replay", check.replay);
+      check.record = readRecord(times.object("record"));
     }
   }
 }

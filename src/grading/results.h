@@ -16,8 +16,8 @@ namespace rex::grading {
 enum class Group { kVisible, kHidden };
 
 /// The fields of a result file, in its order: schema "grade-result/1". All text is valid UTF-8. What differs
-/// between two runs of the same grading (times, memory, pictures) is under "volatile", so the rest compares
-/// byte for byte.
+/// between two runs of the same grading (times, memory, pictures), and records, which count for nothing, are
+/// under "volatile", so the rest compares byte for byte.
 struct SourceFile {
   std::string name{};
   std::string sha256{};
@@ -30,6 +30,14 @@ struct WorstValue {
   std::string value{};  ///< the distance from what was wanted, or the value that has a limit
   std::string limit{};
   int caseNumber = 0;  ///< from 1; 0: outside of cases
+};
+
+/// A figure of a visible check that passed, which may be better than points require. It counts for nothing.
+struct Record {
+  std::string name{};  ///< "length of the path of growStar"
+  double value = 0;
+  std::string unit{};  ///< may be empty
+  bool isMoreBetter = false;
 };
 
 struct CheckResult {
@@ -49,10 +57,12 @@ struct CheckResult {
   WorstValue worst{};
   int cases = 0;  ///< 0: the check has none
   int casesHeld = 0;
+  std::string remark{};    ///< about the answers of a visible check that passed; usually empty
   std::string function{};  ///< the student's function that ran or answered last when it failed; empty: none
   int line = 0;  ///< in the student's file: where that happened, or where the function begins; 0: unknown
-  double wallSeconds = 0;  ///< volatile
-  double cpuSeconds = 0;   ///< volatile
+  double wallSeconds = 0;          ///< volatile
+  double cpuSeconds = 0;           ///< volatile
+  std::optional<Record> record{};  ///< volatile
   // Volatile, too. Files next to the results, which bulk grading may omit; empty: none.
   std::string picture{};  ///< shows what happened and what was wanted
   std::string replay{};   ///< the same as an animated page

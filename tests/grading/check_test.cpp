@@ -72,6 +72,31 @@ TEST(Check, PassesWhenEveryRequirementHolds) {
   EXPECT_EQ(result.message, "");
 }
 
+TEST(Check, KeepsRecordAndRemarkOfVisibleChecksThatPass) {
+  const auto run = [](double value, double got) {
+    return [=](Check& check) {
+      check.record("first", 1);
+      check.record("rides", value, "s", Check::Better::kMore);
+      check.remark("One of two lasts.");
+      check.atMost("size", got, 1);
+    };
+  };
+  const CheckResult passed = judge(run(2.5, 0));
+  ASSERT_TRUE(passed.record);
+  EXPECT_EQ(passed.record->name, "rides");
+  EXPECT_EQ(passed.record->value, 2.5);
+  EXPECT_EQ(passed.record->unit, "s");
+  EXPECT_TRUE(passed.record->isMoreBetter);
+  EXPECT_EQ(passed.remark, "One of two lasts.");
+  EXPECT_EQ(passed.message, "");
+  EXPECT_FALSE(judge(run(kNan, 0)).record);
+  const CheckResult failed = judge(run(2.5, 3)), hidden = judge(run(2.5, 0), Group::kHidden);
+  EXPECT_FALSE(failed.record);
+  EXPECT_EQ(failed.remark, "");
+  EXPECT_FALSE(hidden.record);
+  EXPECT_EQ(hidden.remark, "");
+}
+
 TEST(Check, SaysPropertyGotWantedToleranceUnitAndSeedAndKeepsTheInputApart) {
   const CheckResult result = judge([](Check& check) {
     check.input("q = 0");

@@ -49,6 +49,19 @@ GradeResult gradeGood(const std::vector<RunnableCheck>& checks,
   return grade({}, checks, {.worker = kGood}, signature, [](const GradeResult&) {});
 }
 
+TEST(Grade, MeasuresTimesThatAreRecorded) {
+  const auto result = gradeGood({check("timed", Group::kVisible, [](Check& judge, Student& student) {
+    judge.near("square", student.square(3), 9, 1e-9);
+    judge.recordTime("time of a square");
+  })});
+  const CheckResult& timed = result.checks.front();
+  ASSERT_TRUE(timed.record);
+  EXPECT_EQ(timed.record->name, "time of a square");
+  EXPECT_EQ(timed.record->unit, "ms");
+  EXPECT_GT(timed.record->value, 0);
+  EXPECT_NEAR(timed.record->value, 1000 * timed.cpuSeconds, 1);
+}
+
 // A fresh worker is a program of its own, and what happens to it happens to the check.
 TEST(Grade, AsksFreshWorkers) {
   const auto afresh = [](std::function<void(Check&, Student&)> run) {

@@ -206,6 +206,7 @@ TEST(ResultFile, IsNotBelievedIfItWasChangedAfterItWasSealed) {
 
 // share/grading/result.schema.json and the writer of result files must agree, field by field.
 bool hasType(const Json& value, const std::string& type) {
+  if (type == "number") return value.is_number();
   if (type == "object") return value.is_object();
   if (type == "array") return value.is_array();
   if (type == "string") return value.is_string();
@@ -265,6 +266,24 @@ TEST(ResultSchema, FitsWhatIsWritten) {
   }
   result.checks[0].status.reset();
   EXPECT_EQ(violation(Json::parse(toJson(result)), schema(), ""), "");
+}
+
+TEST(ResultSchema, AllowsRemarksAndRecords) {
+  GradeResult result = fullResult();
+  result.checks[0].remark = "Two of ten last.";
+  result.checks[0].record = {.name = "length", .value = 2.5, .unit = "m", .isMoreBetter = true};
+  const Json json = Json::parse(toJson(result));
+  EXPECT_EQ(violation(json, schema(), ""), "");
+  EXPECT_EQ(json.at("checks").at(0).at("remark"), "Two of ten last.");
+  EXPECT_FALSE(json.at("checks").at(0).contains("record")) << "no grade depends on it";
+  const CheckResult back = gradeResultFromJson(toJson(result), "r.json").checks.at(0);
+  EXPECT_EQ(back.remark, "Two of ten last.");
+  ASSERT_TRUE(back.record);
+  EXPECT_EQ(back.record->name, "length");
+  EXPECT_EQ(back.record->value, 2.5);
+  EXPECT_EQ(back.record->unit, "m");
+  EXPECT_TRUE(back.record->isMoreBetter);
+  EXPECT_FALSE(gradeResultFromJson(toJson(fullResult()), "r.json").checks.at(0).record);
 }
 
 TEST(ResultSchema, AllowsTheHashesOfItsInputs) {

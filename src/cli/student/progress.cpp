@@ -65,6 +65,28 @@ Json toJson(const Work& work) {
           {"parts", parts}};
 }
 
+Records recordsOf(const Json& entry) {
+  Records records;
+  for (const auto& [name, record] : entry.items()) {
+    Attempts attempts{.unit = record.value("unit", ""),
+                      .isMoreBetter = record.value("more_is_better", false),
+                      .values = record.at("values").get<std::vector<double>>(),
+                      .fileSha256 = record.value("file_sha256", "")};
+    if (!attempts.values.empty()) records[name] = std::move(attempts);
+  }
+  return records;
+}
+
+Json toJson(const Records& records) {
+  Json json = Json::object();
+  for (const auto& [name, attempts] : records)
+    json[name] = {{"unit", attempts.unit},
+                  {"more_is_better", attempts.isMoreBetter},
+                  {"values", attempts.values},
+                  {"file_sha256", attempts.fileSha256}};
+  return json;
+}
+
 Progress progressOf(const Json& entry) {
   Progress progress{.tested = entry.contains("points"),
                     .points = entry.value("points", 0),
@@ -73,6 +95,7 @@ Progress progressOf(const Json& entry) {
                     .fileSha256 = entry.value("file_sha256", "")};
   if (entry.contains("hints")) entry.at("hints").get_to(progress.hints);
   if (entry.contains("work")) progress.work = workOf(entry.at("work"));
+  if (entry.contains("records")) progress.records = recordsOf(entry.at("records"));
   return progress;
 }
 
@@ -85,6 +108,7 @@ void putInto(Json& entry, const Progress& progress) {
   }
   if (!progress.hints.empty()) entry["hints"] = progress.hints;
   if (progress.work.lastSave != 0) entry["work"] = toJson(progress.work);
+  if (!progress.records.empty()) entry["records"] = toJson(progress.records);
 }
 
 // Throws a Json::exception if it is not a progress file.

@@ -8,6 +8,7 @@
 
 #include "base/exit_code.h"
 #include "cli/project.h"
+#include "cli/student/records.h"
 #include "grading/results.h"
 
 namespace rex::cli {
@@ -42,6 +43,7 @@ struct Progress {
   std::string fileSha256{};            ///< hash of the main.cpp that was tested last
   std::map<std::string, int> hints{};  ///< number of hints shown, by part
   Work work{};
+  Records records{};
 };
 
 struct AllProgress {

@@ -81,6 +81,7 @@ class TestMany {
       }
     }
     graded_.resize(runs_.size());
+    published_.resize(runs_.size());
   }
 
   void grade(const sandbox::Sandbox& sandbox, int jobs) {
@@ -131,14 +132,15 @@ class TestMany {
  private:
   void take(std::size_t k, int code) {
     graded_[k] = collect(runs_[k], code);
-    isFirst_ = runs_[k].publish(project_, graded_[k]->result) || isFirst_;
+    published_[k] = runs_[k].publish(project_, graded_[k]->result);
+    isFirst_ = published_[k].isFirstWork || isFirst_;
     ++ended_;
   }
 
   // Prints in order: those that are finished and have no unfinished one before them.
   void printThoseReady() {
     for (std::size_t k = printed_; k < runs_.size() && graded_[k]; printed_ = ++k) {
-      runs_[k].print(*graded_[k]);
+      runs_[k].print(*graded_[k], published_[k]);
       say();
       std::fflush(stdout);
     }
@@ -163,10 +165,11 @@ class TestMany {
 
   const Project& project_;
   bool asJson_;
-  bool isFirst_ = false;              // see TestRun::publish()
+  bool isFirst_ = false;              // see Published
   std::deque<TestRun> runs_;          // a deque, as a TestRun cannot move its private folder
   std::vector<GradeResult> blocked_;  // of those whose grader does not build
   std::vector<std::optional<Submission>> graded_;
+  std::vector<Published> published_;
   std::atomic<std::size_t> ended_ = 0, printed_ = 0;
 };
 

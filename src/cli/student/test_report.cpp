@@ -111,6 +111,8 @@ int printChecks(const ExerciseInfo& exercise, const submission::Submission& grad
     for (const CheckResult& check : checks) {
       if (!isOfPart(check)) continue;
       say(lineOf(check, slownessOf(check) + marginOf(check, view.isWhole)));
+      if (!check.remark.empty())
+        say(std::string(kTitles, ' ') + wrap(escapeForTerminal(check.remark), kTitles, kTitles));
       if (check.status != Outcome::kPass && !check.message.empty()) explained.push_back(&check);
     }
   }
@@ -224,6 +226,7 @@ void printResult(const ExerciseInfo& exercise, const submission::Submission& gra
   if (shortened > 0) say(fmt::format("All messages: scripts/rex test {} --all", exercise.name));
   sayHowToRepeat(exercise, result);
   sayPoints(result, view.isWhole ? exercise.points() - result.maxScore : 0);
+  for (const std::string& record : view.records) say(wrap("Record: " + escapeForTerminal(record), 2, 0));
   say("Result: " + shown(results));
   // Beside them are those of `rex run`.
   sayFirst("Replay", filesIn(results.parent_path() / "checks", ".html"), source);

@@ -73,15 +73,45 @@ std::vector<std::string> withParts(const std::vector<std::string>& names, const 
   return checks;
 }
 
-// Returns whether it is the first work that is noted in this folder.
-bool remember(const Project& project, const ExerciseInfo& exercise, const GradeResult& result, bool isWhole) {
-  if (result.outcome == Outcome::kGraderError) return false;
+// Returns the text about it. Without gnuplot there is no curve, and the text stays.
+std::string drawn(const std::string& name, const Attempts& attempts, const fs::path& picture) {
+  const std::string text = recordText(name, attempts);
+  if (attempts.values.size() < 2) return text;
+  try {
+    writeFigure(recordFigure(name, attempts), picture.string());
+    return fmt::format("{}: {}", text, shown(picture));
+  } catch (const Error& error) {
+    note(wrap(fmt::format("rex: no curve of records: {}", error.what()), 2, 0));
+    return text;
+  }
+}
+
+std::vector<std::string> drawRecords(const GradeResult& result, const Records& records,
+                                     const fs::path& folder) {
+  std::vector<std::string> texts;
+  for (const grading::CheckResult& check : result.checks)
+    if (check.record && records.contains(check.record->name))
+      texts.push_back(drawn(check.record->name, records.at(check.record->name),
+                            folder / fmt::format("record-{}.png", check.id)));
+  return texts;
+}
+
+Published remember(const Project& project, const ExerciseInfo& exercise, const GradeResult& result,
+                   const TestOptions& options, const fs::path& folder) {
+  if (result.outcome == Outcome::kGraderError) return {};
+  const bool isWhole = options.job.checks.empty(),
+             hasUsualCases = options.job.seed == grading::GradingJob().seed;
   const ProgressFile file(project.root);
   const AllProgress all = file.read();
   const bool isFirst =
       std::ranges::all_of(all.exercises, [](const auto& one) { return one.second.work.lastSave == 0; });
+  Records records;
   const bool isKept = file.change(exercise.name, [&](Progress& progress) {
     addTest(progress.work, result, isWhole, std::time(nullptr));
+    if (hasUsualCases) {  // values of others cannot be compared
+      addRecords(progress.records, result);
+      records = progress.records;
+    }
     if (!isWhole) return;
     progress.tested = true;
     progress.points = result.score;
@@ -89,7 +119,7 @@ bool remember(const Project& project, const ExerciseInfo& exercise, const GradeR
     progress.solved = progress.solved || result.outcome == Outcome::kPass;
     progress.fileSha256 = result.snapshotSha256;
   });
-  return isFirst && isKept;
+  return {.isFirstWork = isFirst && isKept, .records = drawRecords(result, records, folder)};
 }
 
 }  // namespace
@@ -156,7 +186,7 @@ std::string TestRun::stage() const {
   }
 }
 
-bool TestRun::publish(const Project& project, const GradeResult& result) const {
+Published TestRun::publish(const Project& project, const GradeResult& result) const {
   const fs::path out = results_.parent_path(), log = work_.path() / "build.log",
                  evidence = work_.path() / "checks";
   replaceTextFile(results_, readTextFile(ownResults()), "the result file");
@@ -166,8 +196,8 @@ bool TestRun::publish(const Project& project, const GradeResult& result) const {
       replaceTextFile(out / format.file, format.write(result), "the report");
   fs::remove_all(out / "checks");
   if (fs::exists(evidence)) fs::copy(evidence, out / "checks", fs::copy_options::recursive);
-  if (!options_.main.empty() || options_.solution || options_.debug) return false;
-  return remember(project, exercise_, result, options_.job.checks.empty());
+  if (!options_.main.empty() || options_.solution || options_.debug) return {};
+  return remember(project, exercise_, result, options_, out);
 }
 
 std::string aboutWork() {
@@ -177,12 +207,13 @@ std::string aboutWork() {
       0, 0);
 }
 
-void TestRun::print(const submission::Submission& graded) const {
+void TestRun::print(const submission::Submission& graded, const Published& published) const {
   const bool isWhole = options_.job.checks.empty();
   printResult(exercise_, graded, results_, file_,
               {.isWhole = isWhole,
                .inFull = options_.inFull || !isWhole || !before_ || before_->checks.empty(),
-               .before = before_});
+               .before = before_,
+               .records = published.records});
   if (options_.main.empty() && !fs::exists(file_))
     say(fmt::format("To restore it as it was handed out: scripts/rex reset {}", exercise_.name));
 }
@@ -205,13 +236,13 @@ ExitCode testOne(const Project& project, const TestOptions& options) {
     const ProgressLine line([&] { return run.stage(); });
     return run.grade(*sandbox, processors);
   }();
-  const bool isFirst = run.publish(project, graded.result);
+  const Published published = run.publish(project, graded.result);
   if (options.json) {
     std::fputs(readTextFile(run.ownResults()).c_str(), stdout);
-    if (isFirst) note(aboutWork());
+    if (published.isFirstWork) note(aboutWork());
   } else {
-    run.print(graded);
-    if (isFirst) say(aboutWork());
+    run.print(graded, published);
+    if (published.isFirstWork) say(aboutWork());
   }
   return toExitCode(graded.result);
 }

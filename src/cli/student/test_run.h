@@ -30,6 +30,12 @@ struct TestOptions {
   std::optional<sandbox::Level> level{};  ///< empty: limits only
 };
 
+/// What publish() tells.
+struct Published {
+  bool isFirstWork = false;            ///< work was never recorded before: see aboutWork()
+  std::vector<std::string> records{};  ///< of this test: see recordText()
+};
+
 /// One exercise in `rex test`. It works in a private folder until publish(), so that others may grade the
 /// same exercise at the same time.
 class TestRun {
@@ -48,11 +54,11 @@ class TestRun {
   /// What grade() is doing, from the growing result file.
   [[nodiscard]] std::string stage() const;
   /// Copies the result, log and evidence to the student's results folder, writes its reports there, renewing
-  /// those that are there already, and records the points and the work. Returns whether work was never
-  /// recorded before: see aboutWork(). Throws Error if that fails.
-  bool publish(const Project& project, const grading::GradeResult& result) const;
+  /// those that are there already, and notes the points, the work and the records, whose curves it draws.
+  /// Throws Error if that fails.
+  Published publish(const Project& project, const grading::GradeResult& result) const;
   /// Prints the table for people. Call it after publish().
-  void print(const submission::Submission& graded) const;
+  void print(const submission::Submission& graded, const Published& published) const;
 
  private:
   ExerciseInfo exercise_;
@@ -78,6 +84,7 @@ struct ReportView {
   bool isWhole = true;                           ///< all existing checks were graded
   bool inFull = true;                            ///< every failed check with its message, not only the first
   std::optional<grading::GradeResult> before{};  ///< of the same checks, the last time
+  std::vector<std::string> records{};            ///< see Published
 };
 
 /// Prints the result for people: each check with its points and, if it failed, what was wanted and what came

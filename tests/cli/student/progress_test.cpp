@@ -128,6 +128,21 @@ TEST_F(ProgressFileTest, RemembersTheWork) {
   EXPECT_EQ(back.parts.at("one").worked, 60);
 }
 
+TEST_F(ProgressFileTest, RemembersTheRecords) {
+  progress().change("01-demo", [](Progress& one) {
+    one.records = {{"length", {.unit = "m", .values = {2.5, 1.0 / 3}, .fileSha256 = "ab"}},
+                   {"rides", {.isMoreBetter = true, .values = {7}}}};
+  });
+  countOne("a");
+  const Records back = progress().read().exercises.at("01-demo").records;
+  EXPECT_EQ(back.size(), 2u);
+  EXPECT_EQ(back.at("length").unit, "m");
+  EXPECT_EQ(back.at("length").values, (std::vector{2.5, 1.0 / 3}));
+  EXPECT_EQ(back.at("length").fileSha256, "ab");
+  EXPECT_FALSE(back.at("length").isMoreBetter);
+  EXPECT_TRUE(back.at("rides").isMoreBetter);
+}
+
 TEST_F(ProgressFileTest, KeepsKeysThatItDoesNotKnow) {
   write(R"({"schema": "rex-progress/1", "exercises": {"01-demo": {"badge": "gold"}}, "later": 7})");
   countOne("a");
@@ -139,7 +154,8 @@ TEST_F(ProgressFileTest, MovesABrokenFileAsideAndSaysSo) {
   int count = 0;
   for (const char* broken :
        {"{\"schema\": \"rex-pro", "", "[]", "{\"exercises\": {}}",
-        R"({"schema": "rex-progress/1", "exercises": {"01-demo": {"points": "many"}}})"}) {
+        R"({"schema": "rex-progress/1", "exercises": {"01-demo": {"points": "many"}}})",
+        R"({"schema": "rex-progress/1", "exercises": {"01-demo": {"records": {"length": 3}}}})"}) {
     write(broken);
     const auto [all, told] = readAloud();
     EXPECT_TRUE(all.exercises.empty()) << broken;

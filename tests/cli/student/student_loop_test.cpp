@@ -52,13 +52,13 @@ TEST_F(StudentLoop, ListsExercises) {
   const Ended ended = rex({"list"});
   EXPECT_EQ(ended.code, 0);
   EXPECT_THAT(ended.output, HasSubstr("Chapter 2\n98-template   3 points  Rotating points (template)\n"));
-  EXPECT_THAT(ended.output, HasSubstr("script: 2.1; builds on 00; about 1 hour\n"));
+  EXPECT_THAT(ended.output, HasSubstr("script: 2.1; builds on 00; about 2 hours\n"));
   const std::string json = rex({"list", "--json"}).output;
   EXPECT_EQ(schemaFaultsOf(json, "list"), "");
   EXPECT_EQ(
       json,
       "{\"exercises\":[{\"name\":\"98-template\",\"title\":\"Rotating points (template)\",\"script\":\"2.1\","
-      "\"chapter\":2,\"needs\":[\"00\"],\"hours\":1,\"folder\":\"" +
+      "\"chapter\":2,\"needs\":[\"00\"],\"hours\":2,\"folder\":\"" +
           shown(exercise()) +
           "\",\"points\":3,\"parts\":[{\"id\":\"rotate\","
           "\"title\":\"Rotation in the plane\",\"points\":3,\"core\":true}]}]}\n");

@@ -297,6 +297,24 @@ TEST_F(OneExercise, SaysOnceThatItNotesTheWork) {
   EXPECT_THAT(flat(rex({"test", "98", "--json"}).error), tells);
 }
 
+TEST_F(OneExercise, KeepsRecordsOfTheUsualCases) {
+  const std::string name = "Record: largest error of a distance: ";
+  write(exercise() / "main.cpp", kGood);
+  const std::string first = rex({"test", "98"}).output;
+  EXPECT_THAT(first, HasSubstr(name));
+  EXPECT_THAT(first, Not(HasSubstr("attempts")));
+  rex({"test", "98", "--seed", "7"});
+  rex({"test", "98", "--solution"});
+  EXPECT_FALSE(fs::exists(out() / "record-keeps-length.png")) << "one attempt is no curve";
+  replace(exercise() / "main.cpp", "return {std::cos(a)", "a += 0;\n  return {(1 + 1e-13) * std::cos(a)");
+  EXPECT_THAT(flat(rex({"test", "98", "--check", "keeps-length"}).output),
+              AllOf(HasSubstr(", your best was "), HasSubstr(" m (2 attempts): "),
+                    HasSubstr("/record-keeps-length.png")));
+  EXPECT_TRUE(fs::exists(out() / "record-keeps-length.png"));
+  replace(exercise() / "main.cpp", "(1 + 1e-13)", "2");
+  EXPECT_THAT(rex({"test", "98"}).output, Not(HasSubstr("Record: "))) << "it fails";
+}
+
 TEST_F(OneExercise, DebugsTheCallWithWhichACheckFails) {
   write(exercise() / "main.cpp", kGood);
   const Ended passes = rex({"debug", "98", "--check", "quarter-turn"});
