@@ -183,7 +183,8 @@ void bothSidesIntoTheHole(Check& check, Student& student) {
     askedWell(check, "growBoth", in.record);
     in.treeIsSound(check, "growBoth, from the start", search.fromStart, kZero);
     in.treeIsSound(check, "growBoth, from the goal", search.fromGoal, arm.goal);
-    return in.pathFits(check, "growBoth", search.path, {search.fromStart, search.fromGoal}, false);
+    in.pathFits(check, "growBoth", search.path, {search.fromStart, search.fromGoal}, false);
+    return check.record("queries of edgeFree by growBoth, into the hole", in.record.queries());
   }
 }
 
@@ -191,12 +192,14 @@ void bothSidesIntoTheHole(Check& check, Student& student) {
 
 void checkClearance(Check& check, Student& student) {
   Rng given = generatorsOf(check);
+  double length = 0;
   for (int i = 0; i < 6; ++i) {
     const PlaneProblem problem = twoWalls(check.rng());
     const Path path = jaggedPath(problem, check.rng());
     describe(check, "the path of two trees between two thin walls in the unit square", path);
-    shortenedLength(check, student, problem, path, true, given);
+    length += shortenedLength(check, student, problem, path, true, given);
   }
+  check.record("length of six paths of shortened between walls", length, "m");
   const PlaneProblem empty{{}, Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.9, 0.6)};
   double detour = 0, left = 0;
   for (int i = 0; i < 6; ++i) {
@@ -282,7 +285,8 @@ void growsAroundThinWalls(Check& check, Student& student) {
   const PlaneProblem problem{kThinWalls, kLowerLeft, kUpperRight};
   const SearchSettings settings = inThePlane(0.1, 0.1, 1500);
   describe(check, "two thin walls in the unit square", problem, settings);
-  starIsSound(check, student, problem, settings, given);
+  check.record("length of the path of growStar between thin walls",
+               starIsSound(check, student, problem, settings, given), "m");
 }
 
 // <hidden>

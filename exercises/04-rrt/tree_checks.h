@@ -34,6 +34,7 @@ class EdgeRecord {
     return isFree(key(qa, qb)) || isFree(key(qb, qa));
   }
   bool isMalformed() const { return malformed_; }
+  double queries() const { return static_cast<double>(asked_); }
 
  private:
   static constexpr long kMost = 1'000'000;  // more queries are never needed, and memory is finite

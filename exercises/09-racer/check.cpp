@@ -67,7 +67,7 @@ void selects(Check& check, Student& student) {
 
 void evolves(Check& check, Student& student) { strategyFits(check, student, 3, 4, 60); }
 
-void searches(Check& check, Student& student) { searchSucceeds(check, student, {}); }
+void searches(Check& check, Student& student) { ridesOn(check, {}, searchSucceeds(check, student, {})); }
 
 void sensesCost(Check& check, Student& student) {
   sensedCostFits(check, student, 3, 3);

@@ -114,7 +114,28 @@ inline rex::grading::Evidence seen(const Situation& in, const Eigen::VectorXd& w
   return evidence;
 }
 
-inline void searchSucceeds(rex::grading::Check& check, Student& student, const Situation& in) {
+/// Beyond it, small readings already ask for more than the motor gives.
+inline constexpr double kLargestWeight = 100;
+
+/// What the points do not tell: rides of 100 s, beyond the 5 s that were searched.
+inline void ridesOn(rex::grading::Check& check, const Situation& in, const Eigen::VectorXd& w) {
+  constexpr int kRides = 10, kSteps = 10000;
+  const rex::Rollouts rides = rex::racerRollouts(w, unseenTrials(kRides, check.rng()), optionsOf(in, kSteps));
+  const Eigen::VectorXd seconds = kTau * rides.steps.col(0).cast<double>();
+  const double largest = w.cwiseAbs().maxCoeff();
+  std::string text = fmt::format("Of {} rides of 100 s, {} last to the end", kRides,
+                                 (rides.steps.array() == kSteps).count());
+  if (seconds.minCoeff() < kTau * kSteps)
+    text += fmt::format("; the shortest lasts {:.0f} s, as drift.png shows", seconds.minCoeff());
+  if (largest > kLargestWeight)
+    text += fmt::format(". The largest weight is {:.3g}: the motor mostly gives full torque, to and fro",
+                        largest);
+  check.remark(text + ".");
+  check.record("cost of ten rides of 100 s, per step", rides.cost.mean() / kSteps);
+}
+
+/// Returns the weights.
+inline Eigen::VectorXd searchSucceeds(rex::grading::Check& check, Student& student, const Situation& in) {
   const auto [w, question] = searched(check, student, in);
   const auto asked = check.ask(question);
   const int steps = kLongestRide, wanted = 95;
@@ -132,4 +153,5 @@ inline void searchSucceeds(rex::grading::Check& check, Student& student, const S
   });
   check.atLeast(fmt::format("number of 100 other rides with searchedPolicy that last {} steps", steps),
                 static_cast<double>((rides.steps.array() == steps).count()), wanted);
+  return w;
 }

@@ -262,19 +262,22 @@ void gradients(Check& check, Student& student) {
 void slidesInTheTrap(Check& check, Student& student) {
   const FieldGains gains{1, 0.1, 0.8};
   check.input("trapYard() of maps.h, from (1, 3) into the trap");
-  slides(check, student, {trapYard(), kTrapGoal, gains, {1, 3}}, Ending::kStuck);
+  std::size_t points = slides(check, student, {trapYard(), kTrapGoal, gains, {1, 3}}, Ending::kStuck);
   check.input("trapYard() of maps.h, from (1, 5.7) past the trap");
-  slides(check, student, {trapYard(), kTrapGoal, gains, {1, 5.7}}, Ending::kAtGoal);
+  points += slides(check, student, {trapYard(), kTrapGoal, gains, {1, 5.7}}, Ending::kAtGoal);
   check.input("a yard without blocks");
-  slides(check, student, {{{5, 5}, {}}, {1, 1}, gains, {4, 4.5}}, Ending::kAtGoal);
+  points += slides(check, student, {{{5, 5}, {}}, {1, 1}, gains, {4, 4.5}}, Ending::kAtGoal);
+  check.record("points of slideDown in three descents", static_cast<double>(points));
 }
 
 // <hidden>
 // Half of the cases are cut off from the goal, half are easy; isCutOff() and isEasy() say what that means.
 void slidesAnywhere(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) {
-    if (i % 2 == 0) return slides(check, student, randomTrap(check.rng()), Ending::kStuck);
-    slides(check, student, randomPass(check.rng()), Ending::kAtGoal);
+    if (i % 2 == 0)
+      slides(check, student, randomTrap(check.rng()), Ending::kStuck);
+    else
+      slides(check, student, randomPass(check.rng()), Ending::kAtGoal);
   });
 }
 // </hidden>
@@ -540,11 +543,11 @@ void estimates(Check& check, Student& student) {
   }
 }
 
-// Distances are those from the start; 1e-9 allows for rounding, and for nodes on ways as short as the one
-// returned.
-void searches(Check& check, Student& student, const Network& network, std::size_t start, std::size_t goal,
-              const std::vector<double>& estimates, const std::vector<double>& distances,
-              const CellMap* map = nullptr) {
+// Returns the number of nodes that aStar asks for. Distances are those from the start; 1e-9 allows for
+// rounding, and for nodes on ways as short as the one returned.
+std::size_t searches(Check& check, Student& student, const Network& network, std::size_t start,
+                     std::size_t goal, const std::vector<double>& estimates,
+                     const std::vector<double>& distances, const CellMap* map = nullptr) {
   std::vector<bool> isAsked(network.size());
   std::vector<std::size_t> way, asked, tooFar;
   std::vector<double> reached;
@@ -577,9 +580,10 @@ void searches(Check& check, Student& student, const Network& network, std::size_
   way = student.aStar(arcsOf, start, goal, estimates);
   check.input(input);
   isWay(check, "aStar", network, way, start, goal, distances[goal]);
+  return asked.size();
 }
 
-void searchesMap(Check& check, Student& student, const CellMap& map, MapCell start, MapCell goal) {
+std::size_t searchesMap(Check& check, Student& student, const CellMap& map, MapCell start, MapCell goal) {
   const Network network = networkOf(map);
   std::vector<double> estimates(network.size());
   for (std::size_t place = 0; place < network.size(); ++place) {
@@ -588,21 +592,23 @@ void searchesMap(Check& check, Student& student, const CellMap& map, MapCell sta
     // Less by a little, for lengths of ways are rounded: else an arc might change it by more than its length.
     estimates[place] = (1 - 1e-12) * (std::numbers::sqrt2 * std::min(dx, dy) + std::abs(dx - dy));
   }
-  searches(check, student, network, map.placeOf(start), map.placeOf(goal), estimates,
-           distancesOn(map, start, Connectivity::kEightWithRoom), &map);
+  return searches(check, student, network, map.placeOf(start), map.placeOf(goal), estimates,
+                  distancesOn(map, start, Connectivity::kEightWithRoom), &map);
 }
 
 void searchesKnownMaps(Check& check, Student& student) {
   check.input("a map without obstacles");
-  searchesMap(check, student, mapOf(std::vector<std::string>(9, std::string(12, '.'))), {2, 2}, {10, 5});
+  std::size_t nodes =
+      searchesMap(check, student, mapOf(std::vector<std::string>(9, std::string(12, '.'))), {2, 2}, {10, 5});
   check.input("roomMap() of maps.h");
-  searchesMap(check, student, roomMap(), kRoomStart, kRoomGoal);
+  nodes += searchesMap(check, student, roomMap(), kRoomStart, kRoomGoal);
   check.input("hookMap() of maps.h, with the goal in a closed room");
   CellMap map = hookMap();
   enclose(map, kHookGoal, 1);
   searchesMap(check, student, map, kHookStart, kHookGoal);
   check.input("from a cell to itself");
   searchesMap(check, student, map, kHookStart, kHookStart);
+  check.record("cells whose arcs aStar asks for, in two maps with a path", static_cast<double>(nodes));
 }
 
 // <hidden>
@@ -611,7 +617,8 @@ void searchesAnything(Check& check, Student& student) {
     Rng& rng = check.rng();
     if (i < 5) {
       const CellMap map = randomMap(rng, 20, 20);
-      return searchesMap(check, student, map, randomFreeCell(map, rng), randomFreeCell(map, rng));
+      searchesMap(check, student, map, randomFreeCell(map, rng), randomFreeCell(map, rng));
+      return;
     }
     const RandomNetwork made = randomNetwork(rng, 100, 0.2, 0.3);
     const auto start = static_cast<std::size_t>(rng.index(100)),

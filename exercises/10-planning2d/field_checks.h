@@ -219,7 +219,8 @@ inline void descends(rex::grading::Check& check, const Slide& slide, const Field
   check.atMostAlong("length of a step of slideDown", lengths, stepSize * (1 + 1e-9), "m");
 }
 
-inline void slides(rex::grading::Check& check, Student& student, const Slide& slide, Ending wanted) {
+/// Returns the number of points.
+inline std::size_t slides(rex::grading::Check& check, Student& student, const Slide& slide, Ending wanted) {
   const auto& [yard, goal, gains, start, stepSize] = slide;
   const FieldTrail trail = student.slideDown.asItIs()(yard, goal, gains, start, stepSize);
   check.atLeast("number of points of slideDown", static_cast<double>(trail.points.size()), 1);
@@ -241,4 +242,5 @@ inline void slides(rex::grading::Check& check, Student& student, const Slide& sl
                trail.ending == Ending::kStuck);
     check.atMost("length of the gradient at the last point of slideDown", slope, level, "N");
   }
+  return trail.points.size();
 }

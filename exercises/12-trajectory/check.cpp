@@ -402,7 +402,8 @@ grading::Evidence motionSeen(const Simulator& S, const Eigen::MatrixXd& path) {
   return {.film = std::move(film), .view = view, .moment = end};
 }
 
-void getsAround(Check& check, Student& student, const Scene& scene) {
+// Returns the cost.
+double getsAround(Check& check, Student& student, const Scene& scene) {
   const Eigen::VectorXd& start = scene.start;
   const Errand& errand = scene.errand;
   const Simulator S(armAmong(scene.balls, start));
@@ -444,10 +445,12 @@ void getsAround(Check& check, Student& student, const Scene& scene) {
       check.ask("Are only the configurations kept apart, and not what lies between them?", true);
   check.atLeastAlong("clearance on the way from x_{t-1} to x_t of aroundObstacle", clearancesBetween, least,
                      "m");
+  return cost;
 }
 
 void aroundTheBall(Check& check, Student& student) {
-  getsAround(check, student, drawnLike({kBall, kArmStart, kErrand}, check.rng()));
+  check.record("cost of the motion of aroundObstacle",
+               getsAround(check, student, drawnLike({kBall, kArmStart, kErrand}, check.rng())));
 }
 
 // <hidden>

@@ -357,6 +357,23 @@ void drivesSled(Check& check, Student& student) {
   drives(check, student, sledTask(.5, 8), Eigen::Vector2d(4, 0), rarePushes(2, 20, .5, check.rng()));
 }
 
+// Asks for the time alone; that of a wrong drive does not count.
+void drivesLong(Check& check, Student& student) {
+  constexpr int kSteps = 60;
+  rex::Rng& rng = check.rng();
+  const Task task = randomTask(4, 2, 25, .95, rng);
+  const Eigen::VectorXd start = roundedMatrix(4, 1, 2, rng);
+  const Eigen::MatrixXd pushes = rarePushes(4, kSteps, .5, rng);
+  inputOf(check, task, start, pushes, {});
+  const Drive got = student.driven(task, start, pushes);
+  check.shape("U of driven", got.U, 2, kSteps);
+  const rex::PredictiveController controller = controllerOf(task);
+  const Drive right =
+      driveBy([&](int, const Eigen::VectorXd& x) -> Eigen::VectorXd { return controller.plan(x).U.col(0); },
+              task.plant, start, pushes);
+  if ((got.U - right.U).cwiseAbs().maxCoeff() < 1e-3) check.recordTime("time of 60 plans of 50 numbers each");
+}
+
 // Part 6.
 
 void keeps(Check& check, Student& student, const Task& task, const Corridor& corridor,
@@ -495,6 +512,7 @@ rex::grading::Checks<Student> checks() {
       {"box", "bounds", "Minima of a few numbers", 1, Group::kVisible, boxesSmall},
       {"plan", "receding", "Plans within bounds", 1, Group::kVisible, plansSled},
       {"drive", "receding", "A drive with pushes", 1, Group::kVisible, drivesSled},
+      {"drive-time", "receding", "The time of a long drive (no points)", 0, Group::kVisible, drivesLong},
       {"rate-bounds", "limits", "Bounds of a step", 1, Group::kVisible, boundsOfSteps},
       {"rates", "limits", "Rates within limits", 1, Group::kVisible, ratesOfHands},
       {"line", "limits", "A hand on a line", 1, Group::kVisible, tracesDown},

@@ -165,6 +165,18 @@ void plansSmall(Check& check, Student& student) {
   plans(check, student, 5, .95);
 }
 
+// Asks for the time alone; that of a wrong plan does not count.
+void plansMany(Check& check, Student& student) {
+  constexpr int kStates = 200;
+  constexpr double kDiscount = .99;
+  const LearnedWorld model = modelOf(randomSteps(kStates, 2, 5 * kStates, check.rng()), kStates, 2);
+  check.input("a model of 200 states", {{"discount", kDiscount}});
+  const Eigen::MatrixXd got = student.plannedValues(model, kDiscount);
+  check.shape("Q of plannedValues", got, kStates, 2);
+  if ((got - exactValues(model, kDiscount)).cwiseAbs().maxCoeff() < 1.1e-6)
+    check.recordTime("time of a plan in a model of 200 states");
+}
+
 // maxReward is at least 2, for no reward of randomSteps() exceeds that.
 void checkOptimism(Check& check, Student& student, int states, double maxReward, double discount) {
   const LearnedWorld model = modelOf(randomSteps(states, 2, 6 * states, check.rng()), states, 2);
@@ -476,6 +488,8 @@ rex::grading::Checks<Student> checks() {
       {"sarsa-steps", "sarsa", "SARSA from a few steps", 1, Group::kVisible, learnsTaken},
       {"estimate", "model", "The model of a few steps", 1, Group::kVisible, estimatesFew},
       {"plan", "model", "A plan in a model", 1, Group::kVisible, plansSmall},
+      {"plan-time", "model", "The time of a plan in a large model (no points)", 0, Group::kVisible,
+       plansMany},
       {"hope", "rmax", "An optimistic plan", 1, Group::kVisible, checkSmallOptimism},
       {"clone", "imitation", "A clone, and its mistakes", 1, Group::kVisible, checkClone},
       {"aggregate", "imitation", "Aggregation in two rounds", 1, Group::kVisible, checkAggregation},
