@@ -14,7 +14,7 @@
 struct CarWorld {
   double tau = 1;                 ///< seconds per step
   double wheelbase = 2;           ///< L
-  double dynamicsNoise = 0.03;    ///< added to x, to y and to the heading in each step
+  double dynamicsNoise = 0.03;    ///< added to x, y and heading in each step, of whatever length; 09 differs
   double observationNoise = 0.5;  ///< of both coordinates of a landmark; in part 7 of its distance
   bool rangeBearing = false;      ///< part 7: see a distance and a bearing instead of a position
   double bearingNoise = 0.02;     ///< part 7
@@ -51,7 +51,7 @@ Eigen::VectorXd seenCells(const Eigen::VectorXd& belief, bool door, const Corrid
 
 /// Bonus, 7:30: for each time 0..T the belief given all observations, earlier and later ones. The belief
 /// before the first of them is `prior`. At time t the robot sees a door (seen[t] = 1) or none (seen[t] = 0),
-/// then it moves by ways[t]. There is a way on which all of that is possible.
+/// then, unless t is T, it moves by ways[t] (T numbers). There is a way on which all of that is possible.
 std::vector<Eigen::VectorXd> cellsInHindsight(const Eigen::VectorXd& prior, const std::vector<int>& ways,
                                               const std::vector<int>& seen, const Corridor& corridor);
 

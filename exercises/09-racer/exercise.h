@@ -38,7 +38,8 @@ Eigen::Vector4d rateOf(const Eigen::Vector4d& x, double u, const RacerModel& rac
 /// The state tau seconds later by one step of the classic Runge-Kutta method, with u held; no noise.
 Eigen::Vector4d stepped(const Eigen::Vector4d& x, double u, double tau, const RacerModel& racer);
 /// The noise of a run, which is added to (x', theta') after each step: one column per step (2 x steps).
-/// Independent normal numbers with standard deviation sqrt(tau) `noise`.
+/// Independent normal numbers with standard deviation sqrt(tau) `noise`: `noise` is that of a whole second,
+/// not of a step as in exercise 05.
 Eigen::MatrixXd kicks(int steps, double tau, double noise, rex::Rng& rng);
 /// Given: the noise of two runs, one after the other, with one generator.
 inline std::pair<Eigen::MatrixXd, Eigen::MatrixXd> kicksOfTwo(int steps, double tau, double noise,
