@@ -187,14 +187,30 @@ class SiteWriter {
   int pages_ = 0;
 };
 
-std::string pointsTable(const submission::ExerciseInfo& exercise) {
-  std::string rows;
+bool counts(const submission::ExercisePart& part, const SiteExercise& planned) {
+  const auto& parts = planned.parts;
+  return parts.empty() || std::find(parts.begin(), parts.end(), part.id) != parts.end();
+}
+
+int pointsOf(const submission::ExerciseInfo& exercise, const SiteExercise& planned) {
+  int points = 0;
   for (const submission::ExercisePart& part : exercise.parts)
-    rows += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", htmlText(part.title), part.points);
+    points += counts(part, planned) ? part.points : 0;
+  return points;
+}
+
+std::string pointsTable(const submission::ExerciseInfo& exercise, const SiteExercise& planned) {
+  std::string rows, rules;
+  for (const submission::ExercisePart& part : exercise.parts)
+    rows += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", htmlText(part.title),
+                        counts(part, planned) ? fmt::format("{}", part.points) : "does not count");
+  if (planned.isBonus) rules += " The exercise is a bonus: its points come on top.";
+  if (!planned.minimum.empty())
+    rules += fmt::format(" The minimum is {} of these points.", htmlText(planned.minimum));
   return fmt::format(
       "<h2 id=\"points\">Points</h2>\n<table>\n<tr><th>part</th><th>points</th></tr>\n{}"
-      "<tr><th>together</th><th>{}</th></tr>\n</table>\n",
-      rows, exercise.points());
+      "<tr><th>together</th><th>{}</th></tr>\n</table>\n{}",
+      rows, pointsOf(exercise, planned), rules.empty() ? "" : "<p>" + rules.substr(1) + "</p>\n");
 }
 
 std::string contract(const fs::path& folder) {
@@ -230,13 +246,18 @@ std::string firstPage(const std::vector<submission::ExerciseInfo>& exercises, co
                       const std::set<std::string>& drawn, const std::string& documents,
                       const std::string& forLecturers, const std::string& notes) {
   std::string rows;
-  const bool hasDates = std::any_of(plan.exercises.begin(), plan.exercises.end(), [](const auto& one) {
+  const auto& planned = plan.exercises;
+  const bool hasDates = std::any_of(planned.begin(), planned.end(), [](const auto& one) {
     return !one.opening.empty() || !one.deadline.empty();
   });
+  const bool hasMinima =
+      std::any_of(planned.begin(), planned.end(), [](const auto& one) { return !one.minimum.empty(); });
   for (const submission::ExerciseInfo& one : exercises) {
-    const SiteExercise planned = plannedOf(plan, one.name);
-    const std::string dates =
-        fmt::format("<td>{}</td><td>{}</td>", htmlText(planned.opening), htmlText(planned.deadline));
+    const SiteExercise here = plannedOf(plan, one.name);
+    std::string more;
+    if (hasMinima) more += fmt::format("<td>{}</td>", htmlText(here.minimum));
+    if (hasDates)
+      more += fmt::format("<td>{}</td><td>{}</td>", htmlText(here.opening), htmlText(here.deadline));
     const std::string picture =
         drawn.contains(one.name)
             ? fmt::format("<img class=\"small\" src=\"exercises/{}.png\" alt=\"\">", htmlText(one.name))
@@ -244,13 +265,17 @@ std::string firstPage(const std::vector<submission::ExerciseInfo>& exercises, co
     rows += fmt::format(
         "<tr><td><a "
         "href=\"exercises/{0}.html\">{0}</a>{5}</td><td>{1}</td><td>{2}</td><td>{3}</td>{4}</tr>\n",
-        htmlText(one.name), htmlText(one.title), htmlText(one.script), one.points(), hasDates ? dates : "",
-        picture);
+        htmlText(one.name), htmlText(one.title), htmlText(one.script),
+        fmt::format("{}{}", pointsOf(one, here), here.isBonus ? ", bonus" : ""), more, picture);
   }
+  std::string rules;
+  for (const std::string& rule : plan.rules) rules += "<li>" + htmlText(rule) + "</li>\n";
   return fmt::format(
              "<h1>{}</h1>\n<table class=\"names\">\n<tr><th>exercise</th><th>about</th>"
-             "<th>script</th><th>points</th>{}</tr>\n{}</table>\n<h2>Documents</h2>\n<ul>\n{}</ul>\n",
-             htmlText(plan.title), hasDates ? "<th>opens</th><th>due</th>" : "", rows, documents) +
+             "<th>script</th><th>points</th>{}{}</tr>\n{}</table>\n{}<h2>Documents</h2>\n<ul>\n{}</ul>\n",
+             htmlText(plan.title), hasMinima ? "<th>minimum</th>" : "",
+             hasDates ? "<th>opens</th><th>due</th>" : "", rows,
+             rules.empty() ? "" : "<h2>What counts</h2>\n<ul>\n" + rules + "</ul>\n", documents) +
          (forLecturers.empty() ? "" : "<h2>For lecturers</h2>\n<ul>\n" + forLecturers + "</ul>\n") +
          (notes.empty() ? "" : "<h2>Lecturer's notes</h2>\n<ul>\n" + notes + "</ul>\n");
 }
@@ -313,7 +338,7 @@ CourseSite writePages(const fs::path& root, const fs::path& target, SiteReaders 
   for (const submission::ExerciseInfo& one : exercises) {
     site.addMarkdown(fs::path("exercises") / (one.name + ".html"),
                      fs::path("exercises") / one.name / "README.md", "",
-                     pointsTable(one) + contract(one.folder));
+                     pointsTable(one, plannedOf(plan, one.name)) + contract(one.folder));
     const fs::path picture = pictureOf(root, one);
     if (picture.empty()) continue;
     fs::copy_file(picture, target / "exercises" / (one.name + ".png"));

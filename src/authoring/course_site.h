@@ -14,12 +14,16 @@ enum class SiteReaders { kEverybody, kLecturers };
 /// An exercise of a course, with times as people read them; empty: none is said.
 struct SiteExercise {
   std::string name{}, opening{}, deadline{};
+  std::vector<std::string> parts{};  ///< ids of those that count; empty: all
+  bool isBonus = false;              ///< its points come on top
+  std::string minimum{};             ///< of its points: "40 %"; empty: none
 };
 
 /// What a course makes of its pages. Without exercises: all, and the documents for lecturers, too.
 struct SitePlan {
   std::string title = "Robotics exercises";
   std::vector<SiteExercise> exercises{};  ///< the pages have these alone
+  std::vector<std::string> rules{};       ///< of the total, in sentences
 };
 
 /// What the pages of a course consist of, and the result of their scan.

@@ -71,7 +71,8 @@ TEST_F(CourseSiteTest, HasNoDeadLinks) {
 }
 
 TEST_F(CourseSiteTest, HasOnlyWhatTheCourseHas) {
-  const SitePlan plan{.title = "Winter", .exercises = {{"01-kinematics", "", "1 May"}, {"05-car", "", ""}}};
+  const SitePlan plan{.title = "Winter",
+                      .exercises = {{.name = "01-kinematics", .deadline = "1 May"}, {.name = "05-car"}}};
   const CourseSite site = writeCourseSite(homeFolder(), out(), {}, SiteReaders::kEverybody, plan);
   ASSERT_TRUE(site.scan.leaks.empty()) << toString(site.scan.leaks.front());
   EXPECT_EQ(expectLiveLinks(out(), 50), site.pages);
@@ -82,8 +83,27 @@ TEST_F(CourseSiteTest, HasOnlyWhatTheCourseHas) {
   for (const char* file :
        {"documents/grading.html", "documents/sandbox.html", "exercises/06-kalmanSLAM.html"})
     EXPECT_FALSE(fs::exists(out() / file)) << file;
+  EXPECT_THAT(index, AllOf(Not(HasSubstr("minimum")), Not(HasSubstr("What counts"))));
   const std::string exercise = fileText(out() / "exercises/05-car.html");
   EXPECT_THAT(exercise, AllOf(HasSubstr("rex run 05-car"), Not(HasSubstr("scripts/rex "))));
+}
+
+TEST_F(CourseSiteTest, SaysWhatCountsInTheCourse) {
+  const SitePlan plan{.exercises = {{.name = "10-planning2d", .parts = {"bug", "field"}, .minimum = "40 %"},
+                                    {.name = "12-trajectory", .isBonus = true}},
+                      .rules = {"The best 3 count."}};
+  static_cast<void>(writeCourseSite(homeFolder(), out(), {}, SiteReaders::kEverybody, plan));
+  const std::string index = fileText(out() / "index.html");
+  EXPECT_THAT(index, HasSubstr("<th>points</th><th>minimum</th></tr>"));
+  EXPECT_THAT(index, HasSubstr("<td>7</td><td>40 %</td></tr>"));
+  EXPECT_THAT(index, HasSubstr("<td>20, bonus</td><td></td></tr>"));
+  EXPECT_THAT(index, HasSubstr("<h2>What counts</h2>\n<ul>\n<li>The best 3 count.</li>"));
+  const std::string parts = fileText(out() / "exercises/10-planning2d.html");
+  EXPECT_THAT(parts, HasSubstr("<td>does not count</td>"));
+  EXPECT_THAT(parts, HasSubstr("<tr><th>together</th><th>7</th></tr>\n</table>\n"
+                               "<p>The minimum is 40 % of these points.</p>"));
+  EXPECT_THAT(fileText(out() / "exercises/12-trajectory.html"),
+              HasSubstr("<p>The exercise is a bonus: its points come on top.</p>"));
 }
 
 TEST_F(CourseSiteTest, HasNotesForLecturers) {

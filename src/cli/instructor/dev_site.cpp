@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "authoring/course_site.h"
@@ -6,22 +8,49 @@
 #include "cli/instructor/dev_verbs.h"
 #include "cli/json_internal.h"
 #include "cli/terminal.h"
+#include "reports/report.h"
 
 namespace rex::cli {
 
 namespace {
+
+std::string percentText(std::int64_t hundredths) { return reports::hundredthsText(hundredths) + " %"; }
+
+std::vector<std::string> rulesOf(const classroom::Course& course) {
+  const classroom::TotalRules& total = course.total;
+  const bool hasMinima =
+      std::ranges::any_of(course.exercises, [](const auto& one) { return one.second.minimum.has_value(); });
+  std::vector<std::string> rules;
+  if (total.best)
+    rules.push_back(
+        fmt::format("The best {} exercises without bonus count; bonuses come on top.", *total.best));
+  if (total.passPercent)
+    rules.push_back(
+        fmt::format("To pass, {} of the possible points are needed.", percentText(*total.passPercent)));
+  if (total.passExercises)
+    rules.push_back(
+        fmt::format("To pass, the minimum must be reached in {} of the exercises.", *total.passExercises));
+  else if (hasMinima)
+    rules.emplace_back("To pass, the minimum of every exercise that has one must be reached.");
+  return rules;
+}
 
 authoring::SitePlan planOf(const Project& project, const classroom::Course& course) {
   const classroom::PlatformZone zone(course.timeZone);
   const auto shownTime = [&](const std::optional<std::int64_t>& time) {
     return time ? zone.toText(*time) : "";
   };
-  authoring::SitePlan plan;
+  authoring::SitePlan plan{.rules = rulesOf(course)};
   if (!course.title.empty()) plan.title = course.title;
   for (const std::string& name : courseExercises(project, course)) {
     const auto rule = course.policy.find(name);
-    plan.exercises.push_back({name, rule == course.policy.end() ? "" : shownTime(rule->second.opening),
-                              rule == course.policy.end() ? "" : shownTime(rule->second.deadline)});
+    const classroom::CourseExercise worth = course.exercise(name);
+    plan.exercises.push_back({.name = name,
+                              .opening = rule == course.policy.end() ? "" : shownTime(rule->second.opening),
+                              .deadline = rule == course.policy.end() ? "" : shownTime(rule->second.deadline),
+                              .parts = worth.parts,
+                              .isBonus = worth.isBonus,
+                              .minimum = worth.minimum ? percentText(*worth.minimum) : ""});
   }
   return plan;
 }

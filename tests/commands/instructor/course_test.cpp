@@ -199,6 +199,34 @@ TEST_F(CourseTest, SharesTheClassAmongTutors) {
   EXPECT_THAT(flat(exported("html", {"--blind"}).error), HasSubstr("--blind: found no secret of the course"));
 }
 
+TEST_F(CourseTest, ShowsItsRulesOnItsPages) {
+  fs::create_directories(root() / "share" / "site");
+  for (const char* file : {"style.css", "search.js"}) write(root() / "share" / "site" / file, "\n");
+  const auto site = [&](const std::string& rules) {
+    const std::string before = fileText(root() / "course.toml");
+    replace(root() / "course.toml", "percent_per_day = 10\n", rules + "percent_per_day = 10\n");
+    fs::remove_all(root() / "site");
+    const Ended ended = rex({"dev", "site", "--course", course(), (root() / "site").string()});
+    EXPECT_EQ(ended.code, 0) << ended.error;
+    write(root() / "course.toml", before);
+    return fileText(root() / "site" / "index.html");
+  };
+  const std::string page = (root() / "site" / "exercises" / (kEx + ".html")).string();
+  EXPECT_THAT(site("bonus = true\n"), HasSubstr("<td>3, bonus</td><td></td><td>2023-11-14"));
+  EXPECT_THAT(fileText(page), HasSubstr("The exercise is a bonus: its points come on top."));
+  EXPECT_THAT(
+      site("parts = [\"rotate\"]\nminimum_percent = 40\n"),
+      AllOf(HasSubstr("<td>3</td><td>40 %</td><td></td><td>2023-11-14"),
+            HasSubstr("<li>To pass, the minimum of every exercise that has one must be reached.</li>")));
+  EXPECT_THAT(fileText(page), HasSubstr("The minimum is 40 % of these points."));
+  write(root() / "course.toml",
+        "[total]\npass_percent = 50.5\npass_exercises = 1\n[exercise.98-template]\n"
+        "minimum_percent = 40\npercent_per_day = 10\n");
+  EXPECT_THAT(site(""),
+              HasSubstr("<ul>\n<li>To pass, 50.5 % of the possible points are needed.</li>\n"
+                        "<li>To pass, the minimum must be reached in 1 of the exercises.</li>\n</ul>"));
+}
+
 TEST_F(CourseTest, ForgetsOnePersonOrAnOldTerm) {
   EXPECT_EQ(collect().code, 0);
   const auto forget = [&](std::vector<std::string> more) { return collectWithout(std::move(more)); };
