@@ -79,12 +79,6 @@ using Kind = MotionStep::Kind;
 
 constexpr int kBaseVelocities = 6;
 
-// Lets the row that damps a spring also give its impulse. Rows depend on each other: a force beside them,
-// which their last sweep has not yet balanced, would throw the body.
-void letPull(JointGoals& goals, double impulse) {
-  if (impulse != 0) goals[kDamping]->velocity = impulse * goals[kDamping]->softness;
-}
-
 int linkCount(const Model& model, std::span<const BodyId> bodies) {
   std::size_t count = 0;
   for (const BodyId body : bodies) count += movements(model[model[body].joint]).size();
@@ -307,14 +301,21 @@ void Articulation::drive(std::span<const Motor> motors, double h) {
 // The laws are the same in all directions, so the rows can use the axes of W.
 void Articulation::driveBase(std::span<const Motor> motors, double h) {
   const FreeMotion::LinkMotion motion = baseMotion();
+  std::vector<Motor> forces;
+  if (baseLaw_.stiffness > 0) {
+    forces.assign(motors.begin(), motors.end());
+    motors = forces;
+    base_->read(motion, baseState_);
+    const SpringStretch stretch = springStretch(baseJoint_, baseState_.q.segment<7>(baseJoint_.qIndex));
+    for (int i = 0; i < kBaseVelocities; ++i)
+      forces[static_cast<std::size_t>(baseJoint_.vIndex + i)].target -= baseLaw_.stiffness * stretch[i];
+  }
   const FreeMotion::Wrench wrench = base_->wrench(motors, motion);
   body_->addBaseForce(toBullet(wrench.force_W));
   body_->addBaseTorque(toBullet(wrench.torque_W));
   if (!hasBaseRows()) return;
   const Eigen::Vector3d arm = base_->p_LM_W(motion), w = motion.angular_W;
   const Eigen::Vector3d drift = h * w.cross(w.cross(arm));
-  const FreeMotion::Wrench spring = baseSpring(motion);
-  const Eigen::Vector3d torque_W = spring.torque_W - arm.cross(spring.force_W);
   for (int i = 0; i < kBaseVelocities; ++i) {
     JointRow& row = *rows_[static_cast<std::size_t>(i)];
     const bool isLinear = i < 3;
@@ -325,20 +326,8 @@ void Articulation::driveBase(std::span<const Motor> motors, double h) {
     JointGoals goals;
     goals[kDamping] =
         jointGoals(baseLaw_, Motor{}, {.inertia = row.inertia() + baseLaw_.armature}, h)[kDamping];
-    letPull(goals, h * (isLinear ? spring.force_W : torque_W).dot(axis));
     row.setGoals(goals);
   }
-}
-
-FreeMotion::Wrench Articulation::baseSpring(const FreeMotion::LinkMotion& motion) {
-  std::vector<Motor> forces(static_cast<std::size_t>(baseJoint_.vIndex + kBaseVelocities));
-  if (baseLaw_.stiffness > 0) {
-    base_->read(motion, baseState_);
-    const SpringStretch stretch = springStretch(baseJoint_, baseState_.q.segment<7>(baseJoint_.qIndex));
-    for (int i = 0; i < kBaseVelocities; ++i)
-      forces[static_cast<std::size_t>(baseJoint_.vIndex + i)].target = -baseLaw_.stiffness * stretch[i];
-  }
-  return base_->wrench(forces, motion);
 }
 
 double Articulation::stretchOf(const Coordinate& one, int place) const {
@@ -350,16 +339,16 @@ double Articulation::stretchOf(const Coordinate& one, int place) const {
   return one.R_ML.col(place).dot(stretch_M);
 }
 
+// Sets the goals of a row, and applies the force of its spring.
 void Articulation::pull(const Coordinate& one, int place, const Motor& motor, double h, JointRow& row) {
   JointPlace at{.q = body_->getJointPosMultiDof(one.link)[place],
                 .v = body_->getJointVelMultiDof(one.link)[place]};
   if (one.law.stiffness > 0) {
     at.stretch = stretchOf(one, place);
     at.inertia = row.inertia() + one.law.armature;
+    body_->addJointTorqueMultiDof(one.link, place, springImpulse(one.law, at.stretch, h) / h);
   }
-  JointGoals goals = jointGoals(one.law, motor, at, h);
-  letPull(goals, springImpulse(one.law, at.stretch, h));
-  row.setGoals(goals);
+  row.setGoals(jointGoals(one.law, motor, at, h));
 }
 
 FreeMotion::LinkMotion Articulation::baseMotion() const {

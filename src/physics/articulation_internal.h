@@ -126,7 +126,6 @@ class Articulation : public SimulatedTree {
   void pull(const Coordinate& one, int place, const Motor& motor, double h, JointRow& row);
   [[nodiscard]] double stretchOf(const Coordinate& one, int place) const;
   void driveBase(std::span<const Motor> motors, double h);
-  [[nodiscard]] FreeMotion::Wrench baseSpring(const FreeMotion::LinkMotion& motion);
   [[nodiscard]] FreeMotion::LinkMotion baseMotion() const;
   void setBase(const FreeMotion::LinkMotion& motion);
   void update();

@@ -33,8 +33,7 @@ SceneSpec randomTree(Rng& rng, int bodies, bool isFree) {
   return spec;
 }
 
-// How far apart Bullet and semi-implicit Euler are after `count` steps, relative to the change of v. Both are
-// of first order and begin a step differently: with the step, the distance goes to zero.
+// How far apart Bullet and semi-implicit Euler are after `count` steps, relative to the change of v.
 double apart(const Model& model, const State& start, int count, double h) {
   PhysicsWorld world(model);
   world.setState(start);
@@ -59,7 +58,7 @@ TEST(PassiveJoints, HaveArmaturesInBullet) {
       SceneSpec spec = randomTree(rng, 3 + i, i % 2 == 0);
       for (JointSpec& joint : spec.joints) joint.armature = armature * rng.uniform(0.5, 1);
       const Model model = compile(spec);
-      EXPECT_LT(apart(model, randomStart(rng, model), 200, 2.5e-4), 1e-3) << armature << ", tree " << i;
+      EXPECT_LT(apart(model, randomStart(rng, model), 50, 1e-3), 1e-3) << armature << ", tree " << i;
     }
   }
 }
@@ -74,7 +73,7 @@ TEST(PassiveJoints, HaveSpringsInBullet) {
         joint.springReference = 0.1 * VectorXd::Ones(positionCount(joint.type));
     }
     const Model model = compile(spec);
-    EXPECT_LT(apart(model, randomStart(rng, model), 200, 2.5e-4), 1e-3) << i;
+    EXPECT_LT(apart(model, randomStart(rng, model), 50, 1e-3), 1e-3) << i;
   }
 }
 
@@ -87,16 +86,13 @@ TEST(PassiveJoints, HoldFreeBodies) {
   joint.X_PF = randomPose(rng), joint.X_MC = randomPose(rng);
   joint.armature = 0.7, joint.stiffness = 30;
   const Model model = compile(spec);
-  EXPECT_LT(apart(model, randomStart(rng, model), 400, 2.5e-4), 2e-3);
+  EXPECT_LT(apart(model, randomStart(rng, model), 100, 1e-3), 2e-3);
 }
 
-// However stiff, a spring is no explosion: a step that is too long for it adds at most twice the energy that
-// the motion had at the start, and it comes to rest where its force bears the load. The six springs of a free
-// joint and that of the hinge on it depend on each other; the solver's sweeps balance those up to 1e7.
+// However stiff, a spring is no explosion: it comes to rest where its force bears the load.
 TEST(PassiveJoints, StayTameHoweverStiffTheyAre) {
   for (const JointType type : {JointType::kHinge, JointType::kSlider, JointType::kBall, JointType::kFree}) {
     for (const double stiffness : {1e5, 1e6, 1e7, 1e9, 1e12}) {
-      if (type == JointType::kFree && stiffness > 1e7) continue;
       SceneSpec spec;
       addHinged(spec, "one", 1, 0.02).X_MC = translation(0.3, 0, 0);
       addHinged(spec, "two", 1, 0.02).parent = "one";
@@ -107,11 +103,11 @@ TEST(PassiveJoints, StayTameHoweverStiffTheyAre) {
       State start = initialState(model);
       start.v.setConstant(0.1);
       world.setState(start);
-      const Energy before = energy(model, start.q, start.v);
+      const double before = energy(model, start.q, start.v).total();
       for (int i = 0; i < 500; ++i) {
         world.step(1e-3);
         const State now = world.state();
-        ASSERT_LT(energy(model, now.q, now.v).total() - before.total(), 2 * before.kinetic)
+        ASSERT_LT(energy(model, now.q, now.v).total() - before, 0.01)
             << toString(type) << ' ' << stiffness << ' ' << i;
       }
       if (stiffness < 1e9) continue;
