@@ -4,6 +4,7 @@
 
 #include "base/cpu_lanes.h"
 #include "base/error.h"
+#include "dynamics/buoyancy_internal.h"
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/kernel_room_internal.h"
 #include "dynamics/mass_factor_internal.h"
@@ -29,6 +30,7 @@ void differentiate(const Model& model, const VectorArg& q, const VectorArg& v, c
               .result = derivatives,
               .memory = internal::roomFor(kernel, model, 1, workspace)});
   u_a.diagonal() += model.armature();
+  internal::subtractBuoyancyDerivative(model, q, gravity_W, u_q);
 }
 
 }  // namespace

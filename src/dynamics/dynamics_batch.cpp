@@ -5,6 +5,7 @@
 
 #include "base/cpu_lanes.h"
 #include "base/error.h"
+#include "dynamics/buoyancy_internal.h"
 #include "dynamics/dynamics_batch_internal.h"
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/kernel_room_internal.h"
@@ -79,6 +80,8 @@ void internal::inverseDynamicsBatch(const InverseDynamicsKernel& kernel, const M
   requireColumns(kAccelerations, A, model, Q);
   requireColumns(kForces, U, model, Q);
   forEachBlock(kernel, model, Q, V, A, gravity_W, workspace, U, kernel.block);
+  for (Eigen::Index k = 0; k < Q.cols() && model.hasBuoyancy(); ++k)
+    addBuoyancy(model, Q.col(k), gravity_W, -1, workspace, U.col(k));
 }
 
 void internal::forwardDynamicsBatch(const ForwardDynamicsKernel& kernel, const Model& model,
@@ -88,7 +91,7 @@ void internal::forwardDynamicsBatch(const ForwardDynamicsKernel& kernel, const M
   requireStates(model, Q, V);
   requireColumns(kForces, U, model, Q);
   requireColumns(kAccelerations, A, model, Q);
-  if (hasMimics(model)) {
+  if (hasMimics(model) || model.hasBuoyancy()) {
     for (Eigen::Index k = 0; k < Q.cols(); ++k)
       forwardDynamics(model, Q.col(k), V.col(k), U.col(k), gravity_W, workspace, A.col(k));
     return;

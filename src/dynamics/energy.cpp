@@ -20,7 +20,7 @@ Energy energy(const Model& model, const VectorArg& q, const VectorArg& v, const 
     const MassInWorld body(model.bodies()[i], workspace.poses.X_WB[i]);
     const Eigen::Vector3d w = V[i].tail<3>();
     energy.kinetic += 0.5 * (body.mass * body.velocity(V[i]).squaredNorm() + w.dot(body.I * w));
-    energy.potential -= body.mass * gravity_W.dot(body.p);
+    energy.potential -= body.mass * (1 - model.bodies()[i].buoyancy) * gravity_W.dot(body.p);
   }
   energy.kinetic += 0.5 * v.dot(model.armature().cwiseProduct(v));
   energy.potential += springEnergy(model, q);
@@ -44,7 +44,9 @@ EnergyGradient energyGradient(const Model& model, const VectorArg& q, const Vect
     const std::size_t at = static_cast<std::size_t>(i);
     const std::size_t parent = static_cast<std::size_t>(model[BodyId{i}].parent);
     const MassInWorld body(model[BodyId{i}], poses[BodyId{i}]);
-    momentum[at] += body.momentum(V[at]), weight[at] += internal::forceAt(body.p, body.mass * gravity_W);
+    const double share = 1 - model[BodyId{i}].buoyancy;
+    momentum[at] += body.momentum(V[at]);
+    weight[at] += internal::forceAt(body.p, share * body.mass * gravity_W);
     momentum[parent] += momentum[at], weight[parent] += weight[at];
     // dT/dq = C^T v, in which each body adds its momentum along the rates of the twists above it.
     const auto add = [&](int column, const Joint& joint, const DegreeOfFreedom& freedom) {

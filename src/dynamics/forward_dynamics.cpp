@@ -2,6 +2,7 @@
 
 #include "base/cpu_lanes.h"
 #include "base/error.h"
+#include "dynamics/buoyancy_internal.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/kernel_room_internal.h"
 #include "dynamics/kernels_internal.h"
@@ -42,6 +43,11 @@ void forwardDynamics(const Model& model, const VectorArg& q, const VectorArg& v,
   if (internal::hasMimics(model)) return byMassMatrix(model, q, v, u, gravity_W, workspace, a);
   const auto kernel = kernelFor<internal::ForwardDynamicsKernel>(cpuLanes());
   const double *positions = q.data(), *velocities = v.data(), *forces = u.data();
+  if (model.hasBuoyancy()) {
+    workspace.F = u;
+    internal::addBuoyancy(model, q, gravity_W, 1, workspace, workspace.F);
+    forces = workspace.F.data();
+  }
   double* accelerations = a.data();
   const int link = kernel.one({.links = model.links().data(),
                                .linkCount = static_cast<int>(model.links().size()),

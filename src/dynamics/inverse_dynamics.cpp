@@ -8,6 +8,7 @@
 #include "base/derivative_check.h"
 #include "base/error.h"
 #include "base/require.h"
+#include "dynamics/buoyancy_internal.h"
 #include "dynamics/kernel_room_internal.h"
 #include "dynamics/kernels_internal.h"
 #include "dynamics/requirements_internal.h"
@@ -80,6 +81,7 @@ void inverseDynamics(const Model& model, const VectorArg& q, const VectorArg& v,
               .given = &accelerations,
               .result = &forces,
               .memory = internal::roomFor(kernel, model, 1, workspace)});
+  internal::addBuoyancy(model, q, gravity_W, -1, workspace, u);
 }
 
 Eigen::VectorXd inverseDynamics(const Model& model, const VectorArg& q, const VectorArg& v,

@@ -60,8 +60,8 @@ BodyKind readKind(const Attributes& attributes) {
 
 const std::vector<std::string>& bodyAttributes() {
   static const std::vector<std::string> kNames = [] {
-    std::vector<std::string> names = {"X",     "pose",   "mass",      "com",    "inertia",
-                                      "fixed", "static", "kinematic", "dyntype"};
+    std::vector<std::string> names = {"X",        "pose",  "mass",   "com",       "inertia",
+                                      "buoyancy", "fixed", "static", "kinematic", "dyntype"};
     names.insert(names.end(), ors::shapeAttributes().begin(), ors::shapeAttributes().end());
     return names;
   }();
@@ -156,6 +156,7 @@ class Reader {
     if (body.inertia && !body.inertia->isZero(0) && body.mass == 0 && file_.notes.size() < ors::kMostNotes)
       file_.notes.push_back(
           {attributes.where("inertia"), owner + ": an inertia without mass; it is kept", Severity::kWarning});
+    body.buoyancy = attributes.number("buoyancy").value_or(0);
     attributes.noteFlags({"fixed", "static", "kinematic"}, file_.notes);
     body.kind = readKind(attributes);
     if (attributes.has("type")) {
@@ -176,7 +177,7 @@ class Reader {
   void becomeWorld(BodySpec body, int node, const Attributes& attributes) {
     worldNodes_.insert(node);
     X_WO_ = body.X_WB;
-    for (const char* name : {"mass", "com", "inertia", "kinematic"})
+    for (const char* name : {"mass", "com", "inertia", "buoyancy", "kinematic"})
       if (attributes.has(name))
         attributes.note(name, "is ignored: the world itself does not move", Severity::kWarning, file_.notes);
     for (ShapeSpec& shape : body.shapes) addToWorld(std::move(shape));

@@ -260,6 +260,7 @@ Parts bodyParts(const BodySpec& body) {
     entries << I.diagonal(), I(0, 1), I(0, 2), I(1, 2);
     parts.push_back("inertia=" + arrayText(entries.tail(3).isZero(0) ? entries.head(3).eval() : entries));
   }
+  addNumber("buoyancy", body.buoyancy, 0, parts);
   if (body.kind == BodyKind::kStatic) parts.emplace_back("fixed");
   if (body.kind == BodyKind::kKinematic) parts.emplace_back("kinematic");
   return parts;

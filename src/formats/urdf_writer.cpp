@@ -139,6 +139,7 @@ class UrdfWriter {
     if (body.mass > 0 || (body.inertia && !body.inertia->isZero(0))) {
       const Body& known = model_[model_.body(body.name)];
       writeInertial(known.mass, known.p_BBcm, known.I_BBcm_B);
+      if (known.buoyancy != 0) losses_.add("buoyancies of bodies are left out", body.name, body.where);
     }
     for (const ShapeSpec& shape : body.shapes) writeShape(shape, body.name);
     markup_.close("link");

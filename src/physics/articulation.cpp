@@ -101,6 +101,7 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
     if (baseLaw_.stiffness > 0) baseState_ = initialState(model);
     grown[static_cast<std::size_t>(first.child)] = {-1, link.X_BL};
     links_.emplace(first.child, -1);
+    addLift(model[first.child], -1);
     body_.emplace(linkCount(model, bodies.subspan(1)), link.mass, link.inertia, false, false);
   } else {
     body_.emplace(linkCount(model, bodies), 0, btVector3(0, 0, 0), true, false);
@@ -112,6 +113,7 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
     Grown& child = grown[static_cast<std::size_t>(bodies[i])];
     child = grow(model, joint, bulletLink(model[bodies[i]]), parent);
     links_.emplace(bodies[i], child.link);
+    addLift(model[bodies[i]], child.link);
     if (shapes[i] != nullptr) addCollider(child.link, bodies[i], shapes[i]);
   }
   body_->finalizeMultiDof();
@@ -198,6 +200,11 @@ void Articulation::addCollider(int link, BodyId body, btCollisionShape* shape) {
   colliders_.push_back({std::move(object), body});
 }
 
+void Articulation::addLift(const Body& body, int link) {
+  if (body.buoyancy == 0 || body.mass == 0) return;
+  lifts_.emplace_back(link, toBullet(-body.buoyancy * body.mass * options_.gravity_W));
+}
+
 bool Articulation::hasBaseRows() const {
   return base_ && (baseLaw_.damping > 0 || baseLaw_.armature > 0 || baseLaw_.stiffness > 0);
 }
@@ -278,6 +285,8 @@ void Articulation::read(State& state) const {
 // work.
 void Articulation::drive(std::span<const Motor> motors, double h) {
   if (base_) driveBase(motors, h);
+  for (const auto& [link, force] : lifts_)
+    link < 0 ? body_->addBaseForce(force) : body_->addLinkForce(link, force);
   std::size_t row = hasBaseRows() ? kBaseVelocities : 0;
   for (const Coordinate& one : coordinates_) {
     const Motor* const motor = &motors[static_cast<std::size_t>(one.vIndex)];

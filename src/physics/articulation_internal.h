@@ -121,6 +121,7 @@ class Articulation : public SimulatedTree {
   void addCoordinate(const Model& model, JointId id, const JointMovement& move, const Eigen::Matrix3d& R_ML);
   void addCollider(int link, BodyId body, btCollisionShape* shape);
   [[nodiscard]] bool hasBaseRows() const;
+  void addLift(const Body& body, int link);
   void addRows();
   void addArmature();
   void pull(const Coordinate& one, int place, const Motor& motor, double h, JointRow& row);
@@ -143,7 +144,8 @@ class Articulation : public SimulatedTree {
   std::vector<Collider> colliders_;
   // Six for a base that has a law, linear before angular; then one per coordinate, three per ball.
   std::vector<std::unique_ptr<JointRow>> rows_;
-  std::optional<Armature> armature_;  // if some joint has one; a base that does comes first
+  std::vector<std::pair<int, btVector3>> lifts_;  // forces at the centres of links, by their buoyancy
+  std::optional<Armature> armature_;              // if some joint has one; a base that does comes first
   btAlignedObjectArray<btQuaternion> rotations_;
   btAlignedObjectArray<btVector3> origins_;
   btTransform rememberedBase_;

@@ -297,7 +297,9 @@ Articulation* BulletWorld::addTree(const Model& model, std::span<const BodyId> b
       model.pins(), [&](const Pin& pin) { return pin.a == bodies.front() || pin.b == bodies.front(); });
   if (bodies.size() == 1 && joint.type == JointType::kFree && !hasLaw && !isPinned) {
     if (shapes.front() == nullptr) shapes.front() = &nothing_;
-    auto body = std::make_unique<FreeBody>(joint, bulletLink(model[joint.child]), X_WP, shapes.front());
+    const Body& own = model[joint.child];
+    auto body = std::make_unique<FreeBody>(joint, bulletLink(own), X_WP, shapes.front(),
+                                           -own.buoyancy * own.mass * options.gravity_W);
     setUp(body->object(), joint.child, options);
     trees_.push_back(std::move(body));
     return nullptr;

@@ -59,8 +59,12 @@ FreeMotion::Wrench FreeMotion::wrench(std::span<const Motor> motors, const LinkM
   return {force_W, motion.X_WL.R * (X_LM_.R * torque) + p_LM_W(motion).cross(force_W)};
 }
 
-FreeBody::FreeBody(const Joint& joint, const BulletLink& link, const Pose& X_WP, btCollisionShape* shape)
-    : motion_(joint, X_WP, link.X_BL), body_(link.mass, nullptr, shape, link.inertia), vIndex_(joint.vIndex) {
+FreeBody::FreeBody(const Joint& joint, const BulletLink& link, const Pose& X_WP, btCollisionShape* shape,
+                   const Eigen::Vector3d& lift_W)
+    : motion_(joint, X_WP, link.X_BL),
+      body_(link.mass, nullptr, shape, link.inertia),
+      vIndex_(joint.vIndex),
+      lift_(toBullet(lift_W)) {
   body_.setDamping(0, 0);
   body_.setActivationState(DISABLE_DEACTIVATION);
 }
@@ -86,6 +90,7 @@ FreeMotion::LinkMotion FreeBody::current() const {
 }
 
 void FreeBody::drive(std::span<const Motor> motors, double) {
+  body_.applyCentralForce(lift_);
   if (motion_.isIdle(motors)) return;
   const FreeMotion::Wrench wrench = motion_.wrench(motors, current());
   body_.applyCentralForce(toBullet(wrench.force_W));

@@ -72,8 +72,9 @@ class FreeMotion {
 /// A single body on a free joint of the world, which does not damp it.
 class FreeBody : public SimulatedTree {
  public:
-  /// The shape, in the frame of the link, must outlive it.
-  FreeBody(const Joint& joint, const BulletLink& link, const Pose& X_WP, btCollisionShape* shape);
+  /// The shape, in the frame of the link, must outlive it. `lift_W` acts at its centre of mass, N.
+  FreeBody(const Joint& joint, const BulletLink& link, const Pose& X_WP, btCollisionShape* shape,
+           const Eigen::Vector3d& lift_W = Eigen::Vector3d::Zero());
 
   btCollisionObject& object() { return body_; }
   void addTo(btMultiBodyDynamicsWorld& world) override { world.addRigidBody(&body_); }
@@ -96,6 +97,7 @@ class FreeBody : public SimulatedTree {
   FreeMotion motion_;
   btRigidBody body_;
   int vIndex_;
+  btVector3 lift_;
   Raw remembered_;
 };
 

@@ -180,6 +180,8 @@ void checkBody(const BodySpec& body) {
     fail(body.where, what + ": mass", fmt::format("{}", body.mass), "a finite mass >= 0 kg");
   if (!body.p_BBcm.allFinite())
     fail(body.where, what + ": centre of mass", "a number that is not finite", "finite numbers");
+  if (!std::isfinite(body.buoyancy))
+    fail(body.where, what + ": buoyancy", fmt::format("{}", body.buoyancy), "a finite number");
   if (!body.inertia) return;
   if (!body.inertia->allFinite() || !body.inertia->isApprox(body.inertia->transpose()))
     fail(body.where, what + ": inertia", "", "a finite symmetric matrix");
@@ -495,6 +497,7 @@ Model compile(const SceneSpec& spec) {
               .X_PB = bodySpec.X_WB,
               .mass = bodySpec.mass,
               .p_BBcm = bodySpec.p_BBcm,
+              .buoyancy = bodySpec.buoyancy,
               .kind = bodySpec.kind};
     body.I_BBcm_B = bodySpec.inertia.value_or(kInertiaPerMass * bodySpec.mass * Eigen::Matrix3d::Identity());
     if (const int j = tree.incoming[static_cast<std::size_t>(index)]; j >= 0) {
@@ -523,6 +526,8 @@ Model compile(const SceneSpec& spec) {
   model.armature_ = armatureOf(model.joints_, model.nv_);
   model.hasSprings_ = std::ranges::any_of(
       model.joints_, [](const Joint& joint) { return joint.nv > 0 && joint.stiffness > 0; });
+  model.hasBuoyancy_ = std::ranges::any_of(
+      model.bodies_, [](const Body& body) { return body.buoyancy != 0 && body.mass > 0; });
   for (const auto& [name, index] : tree.firstBodyByName)
     model.bodyByName_.emplace(name, idOfSpec[static_cast<std::size_t>(index)]);
   model.fileOrder_ = std::move(idOfSpec);

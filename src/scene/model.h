@@ -34,6 +34,7 @@ struct Body {
   Eigen::Vector3d p_BBcm{0, 0, 0};  ///< centre of mass, in B
   Eigen::Matrix3d I_BBcm_B = Eigen::Matrix3d::Zero();  ///< inertia about the centre of mass, in B, kg m^2
   double subtreeMass = 0;                              ///< kg, with all its descendants
+  double buoyancy = 0;                                 ///< see BodySpec
   BodyKind kind = BodyKind::kDynamic;
 };
 
@@ -157,6 +158,8 @@ class Model {
   const Eigen::VectorXd& armature() const { return armature_; }
   /// Whether a joint has stiffness.
   bool hasSprings() const { return hasSprings_; }
+  /// Whether a body with a mass has buoyancy.
+  bool hasBuoyancy() const { return hasBuoyancy_; }
 
  private:
   friend Model compile(const SceneSpec& spec);
@@ -175,7 +178,7 @@ class Model {
   std::vector<NamedPosture> postures_;
   std::unordered_map<std::string, BodyId> bodyByName_;
   Eigen::VectorXd q0_, lower_, upper_, armature_;
-  bool hasSprings_ = false;
+  bool hasSprings_ = false, hasBuoyancy_ = false;
   int nv_ = 0;
   double mass_ = 0;
 };

@@ -74,6 +74,9 @@ struct BodySpec {
   double mass = 0;                           ///< kg; 0: massless
   Eigen::Vector3d p_BBcm{0, 0, 0};           ///< centre of mass in B, metres
   std::optional<Eigen::Matrix3d> inertia{};  ///< about the centre of mass, in B, kg m^2; unset: 0.2 m Id
+  /// The share of its weight that something else carries, at its centre of mass: 1 lets it float, more lifts
+  /// it.
+  double buoyancy = 0;
   BodyKind kind = BodyKind::kDynamic;
   std::vector<ShapeSpec> shapes{};
   SourceLocation where{};
@@ -107,8 +110,8 @@ struct JointSpec {
 };
 
 /// The pairs of bodies that may collide unless a CollisionChoice decides, see collision/collision_pairs.h:
-/// all but neighbours and bodies that overlap at home, or, as in scenes of the course, all but kin within
-/// four generations.
+/// all but neighbours and bodies that overlap at home and in the middle of all limits, or, as in scenes of
+/// the course, all but kin within four generations.
 enum class CollisionRule { kAllButNeighbours, kFourGenerations };
 
 /// "all_but_neighbours", "four_generations".

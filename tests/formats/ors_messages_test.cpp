@@ -273,6 +273,8 @@ constexpr Row kNotes[] = {
     {"body a {}\n^body @a@ {}", "b", "note: body 'a': a second body of this name: references mean the first"},
     {"body world { fixed @mass=^1@ }", "",
      "warning: body 'world': attribute 'mass' is ignored: the world itself does not move"},
+    {"body world { fixed @buoyancy=^1@ }", "",
+     "warning: body 'world': attribute 'buoyancy' is ignored: the world itself does not move"},
     {"body world { @kinematic@ }", "fixed",
      "warning: body 'world': attribute 'kinematic' is ignored: the world itself does not move"},
     {"body a { mass=1 @mass=2@ }", "",

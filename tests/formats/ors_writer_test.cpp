@@ -67,6 +67,7 @@ void expectSameBody(const Body& got, const Body& wanted) {
   EXPECT_EQ(got.mass, wanted.mass);
   EXPECT_EQ(got.p_BBcm, wanted.p_BBcm);
   EXPECT_EQ(got.I_BBcm_B, wanted.I_BBcm_B);
+  EXPECT_EQ(got.buoyancy, wanted.buoyancy);
 }
 
 void expectSameMotion(const Model& got, const Model& wanted, Rng& rng) {
@@ -108,6 +109,7 @@ TEST(OrsWriter, KeepsRandomScenes) {
     Rng rng(seed);
     SceneSpec spec = randomScene(rng, 31);
     addDetails(rng, spec);
+    for (BodySpec& body : spec.bodies) body.buoyancy = rng.uniform(-1, 2);
     const SceneSpec got = again(spec);
     expectSame(got, spec, rng);
     for (std::size_t i = 0; i < spec.worldShapes.size(); ++i) {

@@ -365,6 +365,7 @@ TEST(UrdfWriter, NotesWhatUrdfCannotSay) {
   EXPECT_EQ(shape("type=1 size=[1 1 1 0]"), Notes{"shapes without size are left out: 'a'"});
   EXPECT_EQ(notesOf(ors("body a { static }\nbody b { kinematic }")),
             Notes{"kinds of bodies are left out: 2, first 'a'"});
+  EXPECT_EQ(notesOf(ors("body a { mass=1 buoyancy=1 }")), Notes{"buoyancies of bodies are left out: 'a'"});
   SceneSpec hidden = ors("body a { type=1 size=[0 0 0 1] }");
   hidden.bodies[0].shapes[0].visible = false;
   EXPECT_EQ(notesOf(hidden), Notes{"shapes neither drawn nor touched are left out: 'a'"});

@@ -89,6 +89,24 @@ TEST(PassiveJoints, HoldFreeBodies) {
   EXPECT_LT(apart(model, randomStart(rng, model), 100, 1e-3), 2e-3);
 }
 
+TEST(PassiveJoints, CarryBuoyantBodiesInBullet) {
+  Rng rng(4);
+  for (int i = 0; i < 10; ++i) {
+    SceneSpec spec = randomTree(rng, 3 + i, i % 2 == 0);
+    for (BodySpec& body : spec.bodies) body.buoyancy = rng.uniform(-2, 4);
+    const Model model = compile(spec);
+    EXPECT_LT(apart(model, randomStart(rng, model), 50, 1e-3), 1e-3) << i;
+  }
+  SceneSpec spec;
+  addLoose(spec, "box", 2, boxShape(0.2, 0.3, 0.4), {});
+  spec.bodies[0].p_BBcm = {0.1, 0.2, 0.3};
+  spec.bodies[0].buoyancy = 1;
+  const Model model = compile(spec);
+  PhysicsWorld world(model);
+  for (int i = 0; i < 500; ++i) world.step(1e-3);
+  EXPECT_EQ(world.state().q, initialState(model).q);
+}
+
 // However stiff, a spring is no explosion: it comes to rest where its force bears the load.
 TEST(PassiveJoints, StayTameHoweverStiffTheyAre) {
   for (const JointType type : {JointType::kHinge, JointType::kSlider, JointType::kBall, JointType::kFree}) {

@@ -181,6 +181,8 @@ TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
                    "joint 'j': axis: found a zero or non-finite vector");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].p_BBcm.z() = nan; })),
                    "body 'a': centre of mass: found a number that is not finite");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].buoyancy = HUGE_VAL; })),
+                   "body 'a': buoyancy: found inf, wanted a finite number");
   EXPECT_REX_ERROR(
       compile(broken([&](SceneSpec& s) { s.bodies[0].inertia = Eigen::Vector3d(1, -1, 1).asDiagonal(); })),
       "f:1:1: body 'a': inertia: found a negative principal moment");
