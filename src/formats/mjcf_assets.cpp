@@ -92,6 +92,12 @@ void readAssets(const Tag& section, Files& files, const Defaults& defaults, cons
       const std::string name = isNamed ? tag.nameIn("name") : fs::path(tag.text("file")).stem().string();
       add(tag, name, isNamed ? "name" : "file", std::move(field), assets.heightFields);
     }
+    if (tag.name() == "model") {
+      tag.expect(knownOf("model"));
+      const bool isNamed = tag.has("name");
+      const std::string name = isNamed ? tag.nameIn("name") : fs::path(tag.nameIn("file")).stem().string();
+      add(tag, name, isNamed ? "name" : "file", MjcfAssets::Other{tag}, assets.models);
+    }
     const bool isMesh = tag.name() == "mesh";
     if (!isMesh && tag.name() != "material") continue;
     tag.expect(knownOf(tag.name()));

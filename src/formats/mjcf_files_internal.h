@@ -34,6 +34,8 @@ class Files {
 
   /// Whether files may be read.
   bool areRead() const { return assets_ != nullptr; }
+  /// Which files may be read. Only if files may be.
+  const Assets& assets() const { return *assets_; }
   /// Where a file lies that a tag names, see Assets::find(). Only if files may be read.
   [[nodiscard]] std::filesystem::path find(const std::string& name, const Tag& tag) const;
   /// Where to note what concerns the whole model.

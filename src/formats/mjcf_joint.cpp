@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "formats/mjcf_parts_internal.h"
+#include "geometry/rotation.h"
 
 namespace rex::mjcf {
 namespace {
@@ -129,6 +130,34 @@ bool isActive(const Tag& tag, const Defaults& defaults) {
   return !giver.has("active") || flag(giver, "active");
 }
 
+// What holds two bodies together, without its points.
+PinSpec pinBetween(const Tag& tag, const BodyTree& tree) {
+  PinSpec pin{.a = bodyIn(tag, "body1", tree),
+              .b = tag.has("body2") ? bodyIn(tag, "body2", tree) : kWorldName,
+              .where = tag.where()};
+  if (pin.a == pin.b) tag.fail(tag.where("body1"), "one body", xml::quoted(pin.a), "two bodies");
+  return pin;
+}
+
+// The pose of body B in A that a <weld> holds: that at the start or, if `relpose` has a quaternion, the one
+// in which the point `anchor` of B is at its position.
+Pose weldedPose(const Tag& tag, const Pose& X_WA, const Pose& X_WB) {
+  const Pose atStart = X_WA.inverse() * X_WB;
+  if (!tag.has("relpose")) return atStart;
+  const Eigen::VectorXd given = tag.numbers("relpose", 7);
+  const double length = given.tail<4>().stableNorm();
+  if (length == 0) return atStart;
+  if (!(length > 1e-100 && length < 1e100))
+    tag.failAt("relpose", xml::quoted(tag.text("relpose")), "a position and a quaternion w x y z");
+  Pose X_AB{rotationFromQuaternion(given.tail<4>() / length), given.head<3>()};
+  if (tag.has("anchor")) X_AB.p -= X_AB.R * tag.numbers("anchor", 3);
+  return X_AB;
+}
+
+// Corners of a triangle around the origin of B, metres: where these stay, B does. Of their nine equations
+// three follow from the others, which nothing that keeps pins minds.
+const Eigen::Vector3d kWelded_B[] = {{0.1, 0, 0}, {-0.05, 0.0866, 0}, {-0.05, -0.0866, 0}};
+
 }  // namespace
 
 void readPins(const std::vector<Tag>& tags, const Defaults& defaults, const Compiler& compiler,
@@ -136,19 +165,27 @@ void readPins(const std::vector<Tag>& tags, const Defaults& defaults, const Comp
   if (tags.empty()) return;
   const std::unordered_map<std::string, Pose> poses = startingPoses(tree);
   const auto add = [&](const Tag& tag) {
-    tag.expect(knownOf("connect"));
+    tag.expect(knownOf(tag.name()));
     if (!isActive(tag, defaults)) return;
-    if (tag.has("site1") || tag.has("site2")) return tag.ignore("a <connect> of sites", Difference::kMotion);
-    PinSpec pin{.a = bodyIn(tag, "body1", tree),
-                .b = tag.has("body2") ? bodyIn(tag, "body2", tree) : kWorldName,
-                .where = tag.where()};
-    if (pin.a == pin.b) tag.fail(tag.where("body1"), "one body", xml::quoted(pin.a), "two bodies");
+    if (tag.has("site1") || tag.has("site2"))
+      return tag.ignore(fmt::format("a <{}> of sites", tag.name()), Difference::kMotion);
+    PinSpec pin = pinBetween(tag, tree);
     const Pose &X_WA = poses.at(pin.a), &X_WB = poses.at(pin.b);
+    const bool isWeld = tag.name() == "weld";
+    if (tree.spec.pins.size() + (isWeld ? std::size(kWelded_B) : 1) > kMostPins)
+      tag.fail(tag.where(), "too many <connect> and <weld>", "",
+               fmt::format("at most {}; a <weld> counts as 3", kMostPins));
+    if (isWeld) {
+      const Pose X_AB = weldedPose(tag, X_WA, X_WB);
+      for (const Eigen::Vector3d& p_BQ : kWelded_B) {
+        pin.p_AP = X_AB * p_BQ, pin.p_BQ = p_BQ;
+        tree.spec.pins.push_back(pin);
+      }
+      return;
+    }
     const Eigen::Vector3d anchor = tag.numbers("anchor", 3);
     pin.p_AP = compiler.global ? X_WA.inverse() * anchor : anchor;
     pin.p_BQ = X_WB.inverse() * (X_WA * pin.p_AP);
-    if (tree.spec.pins.size() == kMostPins)
-      tag.fail(tag.where(), "too many <connect>", "", fmt::format("at most {}", kMostPins));
     tree.spec.pins.push_back(std::move(pin));
   };
   for (const Tag& tag : tags) tree.forEachReplica(tag, [&] { add(tag); });
@@ -369,7 +406,7 @@ void readEqualities(const std::vector<Tag>& sections, Files& files, const Defaul
   };
   for (const Tag& section : sections) {
     for (const Tag& tag : files.children(section.of("<equality>"), knownOf("equality"))) {
-      if (tag.name() == "connect") pins.push_back(tag);
+      if (tag.name() == "connect" || tag.name() == "weld") pins.push_back(tag);
       if (tag.name() != "joint" && tag.name() != "tendon") continue;
       tag.expect(knownOf(tag.name() == "joint" ? "equality/joint" : "equality/tendon"));
       tree.forEachReplica(tag, [&] { couple(tag); });

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -35,6 +37,7 @@ struct Compiler {
   double leastMass = 0, leastMoment = 0;  ///< of each body, kg and kg m^2; moments are principal ones
   std::optional<double> totalMass{};      ///< to which all masses are scaled
   bool balancesMoments = false;           ///< makes impossible inertias spherical
+  bool alignsFree = false;                ///< see alignFreeBodies(), for bodies that do not say it themselves
   bool fitsBounds = false;                ///< geoms are fitted to the bounds of meshes, not to their inertias
   MeshInertia meshInertia = MeshInertia::kLegacy;  ///< of meshes that do not say it themselves
 
@@ -73,8 +76,17 @@ struct HeightField {
   TriangleMesh drawn{};
   std::vector<TriangleMesh> pieces{};
 };
-/// The meshes, height fields and colours that geoms name.
+struct BodyTree;
+/// The meshes, height fields and colours that geoms name, and the models that <attach> names.
 struct MjcfAssets {
+  /// A model that is read when it is first attached.
+  struct Other {
+    Tag tag;
+    std::shared_ptr<const BodyTree> tree{};
+  };
+  mutable std::unordered_map<std::string, Other> models;
+  /// Reads a <model>, with the masses of its bodies.
+  std::function<BodyTree(const Tag&)> readOther{};
   std::unordered_map<std::string, MeshAsset> meshes;
   std::unordered_map<std::string, HeightField> heightFields;
   std::unordered_map<std::string, Eigen::Vector4d> colors;
@@ -142,8 +154,11 @@ struct BodyInFile {
   std::string parent{};
   std::size_t joints = 0;
   std::optional<MassProperties> given{};
-  std::vector<Solid> solids{};  ///< as far as they count
-  bool hasGeoms = false;        ///< also such as make no shapes
+  std::optional<Eigen::Matrix3d> givenAxes{};  ///< those of `diaginertia`, in the body
+  std::vector<Solid> solids{};                 ///< as far as they count
+  bool isWeighed = false;                      ///< by its solids, set by setMasses()
+  bool aligns = false;    ///< its frame becomes that of its inertia if it has no children
+  bool hasGeoms = false;  ///< also such as make no shapes
 };
 /// The shapes of a geom, of a body by its place in the spec, or of the world.
 struct GeomInTree {
@@ -199,6 +214,13 @@ struct BodyTree {
     return body ? spec.bodies[*body].shapes : spec.worldShapes;
   }
 };
+/// The new name of a body, joint, geom, tendon or key of a model that is attached.
+using Rename = std::function<std::string(const std::string&)>;
+/// The part of a model that an <attach> names, with new names. Its world stands for what it is attached to.
+[[nodiscard]] BodyTree partToAttach(const BodyTree& whole, const Tag& tag, const Rename& renamed);
+/// Hangs such a part on a body of the tree, or on the world; X_PF places its world there.
+void graft(const Tag& tag, BodyTree part, const std::string& parent, const Pose& X_PF, BodyTree& tree);
+
 [[nodiscard]] BodyTree readTree(const std::vector<Tag>& worldbodies, Files& files, const Defaults& defaults,
                                 const Compiler& compiler, const MjcfAssets& assets);
 
@@ -208,6 +230,10 @@ void fitGeoms(BodyTree& tree, const Compiler& compiler, Reading& reading);
 
 /// Gives all bodies their masses.
 void setMasses(BodyTree& tree, const Compiler& compiler, Reading& reading);
+
+/// Moves the frames of free bodies without children that are to be aligned to their centres of mass, along
+/// the axes of their inertias, as MuJoCo does. To be called when the bodies have their masses.
+void alignFreeBodies(BodyTree& tree, Reading& reading);
 
 /// Makes springs and dampers of the attributes `springdamper`, by the inertia that each joint meets where all
 /// start, as MuJoCo does. To be called when the bodies have their masses.
@@ -223,7 +249,7 @@ void readEqualities(const std::vector<Tag>& sections, Files& files, const Defaul
                     const Compiler& compiler, BodyTree& tree);
 /// The joint of the tree that an attribute names.
 [[nodiscard]] JointSpec& jointIn(const Tag& tag, const char* attribute, BodyTree& tree);
-/// The tags <connect>.
+/// The tags <connect>, and <weld>, which become three pins.
 void readPins(const std::vector<Tag>& tags, const Defaults& defaults, const Compiler& compiler,
               BodyTree& tree);
 /// The name of a body of the tree, or "world".

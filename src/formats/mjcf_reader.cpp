@@ -113,7 +113,6 @@ void readCompiler(const Tag& given, Compiler& compiler) {
   const Tag tag = given.of("<compiler>");
   tag.expect(knownOf("compiler"));
   readCoordinates(tag, compiler);
-  if (tag.has("alignfree") && flag(tag, "alignfree")) tag.leaveOut("alignfree", Difference::kMotion);
   if (tag.has("angle")) compiler.degrees = choice(tag, "angle", {"radian", "degree"}) == 1;
   const auto readFlag = [&](const char* name, bool& value) {
     if (tag.has(name)) value = flag(tag, name);
@@ -122,6 +121,7 @@ void readCompiler(const Tag& given, Compiler& compiler) {
   readFlag("strippath", compiler.stripsPaths);
   readFlag("balanceinertia", compiler.balancesMoments);
   readFlag("fitaabb", compiler.fitsBounds);
+  readFlag("alignfree", compiler.alignsFree);
   if (tag.has("exactmeshinertia"))
     compiler.meshInertia = flag(tag, "exactmeshinertia") ? MeshInertia::kExact : MeshInertia::kLegacy;
   readEulerOrder(tag, compiler);
@@ -279,8 +279,20 @@ void noteStarts(const std::vector<urdf::ReadJoint>& joints, Notes& notes) {
                                        first->lower[0], first->upper[0], others));
 }
 
+constexpr std::size_t kLargestModel = 8u << 20;  // bytes
+
+// How a model is read, and those that it attaches.
+struct ModelSource {
+  const Assets* assets;  // null: files are not read
+  const ReadOptions& options;
+  Diagnostics& notes;  // of meshes, and of models that are attached
+  int depth = 0;       // of a model that is attached to others
+};
+
+BodyTree readOther(const Tag& model, const Files& files, const ModelSource& source);
+
 // A model as text; its bodies have no masses yet.
-BodyTree readModel(Files& files, const std::string& name, Compiler& compiler) {
+BodyTree readModel(Files& files, const std::string& name, Compiler& compiler, const ModelSource& source) {
   const std::vector<Tag> sections = files.children(files.root(), knownOf("mujoco"));
   for (const Tag& tag : named(sections, "compiler")) readCompiler(tag, compiler);
   Switches switches;
@@ -288,6 +300,7 @@ BodyTree readModel(Files& files, const std::string& name, Compiler& compiler) {
   Defaults defaults;
   for (const Tag& tag : named(sections, "default")) defaults.read(tag, files);
   MjcfAssets assets;
+  assets.readOther = [&](const Tag& model) { return readOther(model, files, source); };
   for (const Tag& tag : named(sections, "asset"))
     readAssets(tag.of("<asset>"), files, defaults, compiler, assets);
   BodyTree tree = readTree(named(sections, "worldbody"), files, defaults, compiler, assets);
@@ -300,8 +313,10 @@ BodyTree readModel(Files& files, const std::string& name, Compiler& compiler) {
   readContacts(named(sections, "contact"), files, tree);
   readKeyframes(named(sections, "keyframe"), files, tree);
   apply(switches, tree, files.main().notes);
-  if (switches.contacts) noteUntouchable(tree, files.main().notes);
-  forbidNeighbours(tree);
+  if (source.depth == 0) {
+    if (switches.contacts) noteUntouchable(tree, files.main().notes);
+    forbidNeighbours(tree);
+  }
   urdf::keepTargetsMovable(tree.joints, files.main());
   noteStarts(tree.joints, files.main().notes);
   for (const urdf::ReadJoint& joint : tree.joints) tree.spec.joints.push_back(joint.spec);
@@ -310,6 +325,46 @@ BodyTree readModel(Files& files, const std::string& name, Compiler& compiler) {
 
 void joinNotes(Diagnostics& notes, const Diagnostics& more) {
   notes.insert(notes.end(), more.begin(), more.end());
+}
+
+// A model with its meshes and masses.
+BodyTree readWhole(Files& files, const std::string& name, const ModelSource& source) {
+  Compiler compiler;
+  BodyTree tree = readModel(files, name, compiler, source);
+  if (source.assets) {
+    SceneFile scene;
+    scene.spec = std::move(tree.spec);
+    try {
+      loadMeshes(scene, *source.assets, source.options, MeshMaterials::kIgnored);
+    } catch (const Error&) {
+      joinNotes(source.notes, scene.notes);
+      throw;
+    }
+    joinNotes(source.notes, scene.notes);
+    tree.spec = std::move(scene.spec);
+  }
+  fitGeoms(tree, compiler, files.main());
+  setMasses(tree, compiler, files.main());
+  alignFreeBodies(tree, files.main());
+  setSprings(tree, files.main());
+  return tree;
+}
+
+// The file's own folder may be the root, but what it names must not lie above that.
+BodyTree readOther(const Tag& model, const Files& files, const ModelSource& source) {
+  constexpr int kDeepest = 8;
+  if (!files.areRead())
+    model.failAt("file", "a scene that was given as text", "no <model>: only models in files attach others");
+  if (source.depth == kDeepest)
+    model.failAt("file", fmt::format("level {} of models that attach others", kDeepest + 1),
+                 fmt::format("at most {}", kDeepest));
+  const std::string path = files.find(model.nameIn("file"), model).string();
+  const std::string text = readSceneText(path, kLargestModel);
+  const Assets assets(path, files.assets().root());
+  Files own(text, path, &assets, source.options.strict);
+  BodyTree tree = readWhole(own, path, {&assets, source.options, source.notes, source.depth + 1});
+  joinNotes(source.notes, own.takeNotes());
+  return tree;
 }
 
 void refuseFreeBase(const std::string& name, const ReadOptions& options) {
@@ -325,26 +380,18 @@ SceneFile readModelFile(std::string_view text, const std::string& name, const As
   refuseFreeBase(name, options);
   Files files(text, name, assets, options.strict);
   SceneFile scene;
+  Diagnostics more;
   try {
-    Compiler compiler;
-    BodyTree tree = readModel(files, name, compiler);
-    scene.spec = std::move(tree.spec);
-    if (assets) loadMeshes(scene, *assets, options, MeshMaterials::kIgnored);
-    tree.spec = std::move(scene.spec);
-    fitGeoms(tree, compiler, files.main());
-    setMasses(tree, compiler, files.main());
-    setSprings(tree, files.main());
-    scene.spec = std::move(tree.spec);
+    scene.spec = readWhole(files, name, {assets, options, more}).spec;
   } catch (const Error&) {
     if (options.notesOfFailure) {
       joinNotes(*options.notesOfFailure, files.takeNotes());
-      joinNotes(*options.notesOfFailure, scene.notes);
+      joinNotes(*options.notesOfFailure, more);
     }
     throw;
   }
-  Diagnostics notes = files.takeNotes();
-  joinNotes(notes, scene.notes);
-  scene.notes = std::move(notes);
+  scene.notes = files.takeNotes();
+  joinNotes(scene.notes, more);
   return scene;
 }
 
@@ -355,9 +402,8 @@ SceneFile parseMjcf(std::string_view text, const std::string& name, const ReadOp
 }
 
 SceneFile readMjcf(const std::filesystem::path& file, const ReadOptions& options) {
-  constexpr std::size_t kLargest = 8u << 20;
   const Assets assets(file, options.assetRoot);
-  return readModelFile(readSceneText(file, kLargest), file.string(), &assets, options);
+  return readModelFile(readSceneText(file, kLargestModel), file.string(), &assets, options);
 }
 
 }  // namespace rex

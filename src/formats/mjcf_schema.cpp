@@ -20,7 +20,7 @@ struct Row {
 
 constexpr std::string_view kPose = "pos quat axisangle euler xyaxes zaxis";
 constexpr std::string_view kBodyChildren =
-    "<include> <inertial> <joint> <freejoint> <geom> <body> <frame> <replicate>";
+    "<include> <inertial> <joint> <freejoint> <geom> <body> <frame> <replicate> <attach>";
 
 constexpr Row kRows[] = {
     {"mujoco",
@@ -47,19 +47,21 @@ constexpr Row kRows[] = {
      "class <include> <default> <joint> <geom> <mesh> <material> <equality> <general> <motor> <position> "
      "<velocity> <intvelocity> <damper> <cylinder> <tendon>",
      "<site> <camera> <muscle> <adhesion> <plugin> <orientation> <pid> <dcmotor>", "<light>", "<pair>"},
-    {"asset", "<include> <mesh> <material> <hfield>", "", "<texture> <skin>", "", "", "<model>"},
+    {"asset", "<include> <mesh> <material> <hfield> <model>", "", "<texture> <skin>"},
+    {"model", "name file", "content_type"},
+    {"attach", "model body prefix"},
     {"mesh", "name class file scale inertia vertex face refpos refquat builtin params", "content_type",
      "normal texcoord smoothnormal material", "maxhullvert", "<plugin>"},
     {"material", "name class rgba", "",
      "<layer> texture texrepeat texuniform emission specular shininess reflectance metallic roughness"},
     {"hfield", "name file nrow ncol size elevation", "content_type"},
-    {"worldbody", "@body", "<camera>", "<site> <light>", "", "<plugin>", "<composite> <flexcomp> <attach>"},
+    {"worldbody", "@body", "<camera>", "<site> <light>", "", "<plugin>", "<composite> <flexcomp>"},
     {"body", "name childclass @pose gravcomp @body", "mocap user sleep simple fuse <camera>",
-     "<site> <light>", "", "<plugin>", "<composite> <flexcomp> <attach>"},
+     "<site> <light>", "", "<plugin>", "<composite> <flexcomp>"},
     {"frame", "name childclass @pose @body", "<camera>", "<site> <light>", "", "<plugin>",
-     "<composite> <flexcomp> <attach>"},
+     "<composite> <flexcomp>"},
     {"replicate", "count offset euler sep childclass @body", "<camera>", "<site> <light>", "", "<plugin>",
-     "<composite> <flexcomp> <attach>"},
+     "<composite> <flexcomp>"},
     {"inertial", "@pose mass diaginertia fullinertia"},
     {"joint",
      "name class type pos axis range limited ref damping frictionloss actuatorfrcrange actuatorfrclimited "
@@ -86,9 +88,11 @@ constexpr Row kRows[] = {
      "actuatorfrcrange <site> <geom> <pulley>",
      "group user margin solreflimit solimplimit solreffriction solimpfriction width material rgba"},
     {"deformable", "<include>", "", "<skin>", "", "<flex>"},
-    {"equality", "<include> <joint> <connect> <tendon>", "", "", "",
-     "<weld> <flex> <flexvert> <flexstrain> <distance> <plugin>"},
+    {"equality", "<include> <joint> <connect> <weld> <tendon>", "", "", "",
+     "<flex> <flexvert> <flexstrain> <distance> <plugin>"},
     {"connect", "name class active body1 body2 anchor site1 site2", "", "", "", "solref solimp"},
+    {"weld", "name class active body1 body2 site1 site2 anchor relpose torquescale", "", "", "",
+     "solref solimp"},
     {"equality/joint", "name class active joint1 joint2 polycoef", "", "", "", "solref solimp"},
     {"equality/tendon", "name class active tendon1 tendon2 polycoef", "", "", "", "solref solimp"},
     {"actuator", "<include> <general> <motor> <position> <velocity> <intvelocity> <damper> <cylinder>", "",

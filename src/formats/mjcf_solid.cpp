@@ -267,16 +267,16 @@ MassProperties massOfMesh(const ShapeSpec& shape, MeshInertia inertia) {
 
 void setMasses(BodyTree& tree, const Compiler& compiler, Reading& reading) {
   Weigher weigh(reading);
-  for (const BodyInFile& one : tree.bodies) {
+  for (BodyInFile& one : tree.bodies) {
     BodySpec& body = tree.spec.bodies[one.body];
     MassProperties all = one.given.value_or(MassProperties{});
-    const bool isWeighed = weighsByGeoms(one, compiler);
-    if (isWeighed) all = weigh(one.solids, body.shapes);
+    one.isWeighed = weighsByGeoms(one, compiler);
+    if (one.isWeighed) all = weigh(one.solids, body.shapes);
     body.mass = std::max(all.mass, compiler.leastMass);
     if (body.mass == 0) continue;
     body.p_BBcm = all.p_BBcm;
     Eigen::Matrix3d I = bounded(all.I_BBcm_B, compiler);
-    if (isWeighed)
+    if (one.isWeighed)
       I = urdf::judgedMoments(reading, body.where, fmt::format("body '{}': its geoms", body.name), I,
                               body.mass);
     body.inertia = (I + I.transpose()) / 2;

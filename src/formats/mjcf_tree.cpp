@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +20,10 @@ struct BodyNode {
   std::vector<BodyJoint> joints{};
   std::vector<Geom> geoms{};
   std::optional<MassProperties> given{};
+  std::optional<Eigen::Matrix3d> givenAxes{};
+  double buoyancy = 0;
+  bool aligns = false;                         // see alignFreeBodies()
+  std::shared_ptr<const BodyTree> attached{};  // instead of all this
   std::vector<BodyNode> children{};
 };
 
@@ -78,6 +83,7 @@ class NodeReader {
       if (child.name() == "body") body.children.push_back(readBody(child, X_BF, style, depth + 1));
       if (child.name() == "frame") collectFrame(child, X_BF, style, body, depth + 1);
       if (child.name() == "replicate") collectReplicas(child, X_BF, style, body, depth + 1);
+      if (child.name() == "attach") body.children.push_back(readAttached(child, X_BF));
       if (child.name() == "inertial") readGiven(child, X_BF, body);
       if (child.name() == "geom") readBodyGeom(child, X_BF, style, body);
       if (child.name() == "joint" || child.name() == "freejoint") readMotion(child, X_BF, style, body);
@@ -98,7 +104,7 @@ class NodeReader {
     const Pose X_FB = poseOf(Styled(body.tag), compiler_);
     body.X_PB = X_PF * X_FB;
     const Pose X_BF = compiler_.global ? X_FB.inverse() : Pose{};
-    if (given.number("gravcomp", 0) != 0) given.leaveOut("gravcomp", Difference::kMotion);
+    body.buoyancy = given.number("gravcomp", 0);
     collect(body.tag, knownOf("body"), X_BF, defaults_.named(body.tag, "childclass", around), body, depth);
     return body;
   }
@@ -131,6 +137,35 @@ class NodeReader {
     suffix_ = around;
   }
 
+  // The model is in the frame around the tag.
+  BodyNode readAttached(const Tag& tag, const Pose& X_PF) {
+    tag.expect(knownOf("attach"));
+    const std::string& name = tag.nameIn("model");
+    const auto model = assets_.models.find(name);
+    if (model == assets_.models.end()) {
+      std::vector<std::string> known;
+      for (const auto& [other, unused] : assets_.models) known.push_back(other);
+      std::ranges::sort(known);
+      tag.fail(tag.where("model"), "unknown model", xml::quoted(name), "the name of a <model>",
+               nearestNames(name, known));
+    }
+    if (!model->second.tree)
+      model->second.tree = std::make_shared<const BodyTree>(assets_.readOther(model->second.tag));
+    const std::string prefix = tag.text("prefix");
+    const Rename renamed = [&](const std::string& inner) { return prefix + inner + suffix_; };
+    BodyTree part = partToAttach(*model->second.tree, tag, renamed);
+    attachedJoints_ += part.joints.size();
+    attachedBodies_ += part.spec.bodies.size();
+    if (attachedJoints_ > kMostJoints || attachedBodies_ > kMostReplicas)
+      tag.fail(tag.where(), "too many bodies and joints of attached models", "",
+               fmt::format("at most {} and {}", kMostReplicas, kMostJoints));
+    for (const BodySpec& body : part.spec.bodies) requireNew(tag, "body", body.name, bodies_);
+    for (const urdf::ReadJoint& joint : part.joints) requireNew(tag, "joint", joint.spec.name, joints_);
+    BodyNode node{tag, X_PF};
+    node.attached = std::make_shared<const BodyTree>(std::move(part));
+    return node;
+  }
+
   // The name of a thing, in a replica with its number.
   std::string nameOf(const Tag& tag) {
     const std::string& name = tag.nameIn("name");
@@ -149,6 +184,7 @@ class NodeReader {
       return;
     }
     MassProperties given = readInertial(tag, compiler_);
+    if (tag.has("diaginertia")) body.givenAxes = X_BF.R * poseOf(Styled(tag), compiler_).R;
     given.p_BBcm = X_BF * given.p_BBcm;
     given.I_BBcm_B = X_BF.R * given.I_BBcm_B * X_BF.R.transpose();
     body.given = given;
@@ -176,13 +212,14 @@ class NodeReader {
     JointSpec& joint = one.spec;
     if (tag.name() == "freejoint") {
       tag.expect(knownOf("freejoint"));
-      if (tag.has("align") && tag.text("align") == "true") tag.leaveOut("align", Difference::kMotion);
       joint.type = JointType::kFree;
     } else {
       tag.expect(knownOf("joint"));
       one = readBodyJoint(Styled(tag, defaults_.named(tag, "class", style), Kind::kJoint), compiler_);
     }
     joint.where = tag.where();
+    const std::size_t aligns = tag.has("align") ? choice(tag, "align", {"false", "true", "auto"}) : 2;
+    body.aligns = joint.type == JointType::kFree && (aligns < 2 ? aligns == 1 : compiler_.alignsFree);
     if (joint.type != JointType::kFree) {
       joint.X_PF = X_BF * joint.X_PF;
       joint.X_MC = joint.X_MC * X_BF.inverse();
@@ -215,7 +252,7 @@ class NodeReader {
   std::size_t pieces_ = 0;                                           // of height fields
   std::unordered_map<std::string, std::vector<std::string>> replicas_{};
   std::string suffix_{};  // of names in the replica in hand
-  std::size_t replicaCount_ = 0;
+  std::size_t replicaCount_ = 0, attachedJoints_ = 0, attachedBodies_ = 0;
 };
 
 // Names for things without a name.
@@ -254,13 +291,17 @@ class TreeMaker {
 
  private:
   void add(BodyNode& node, const std::string& parent) {
+    if (node.attached) return graft(node.tag, *node.attached, parent, node.X_PB, tree_);
     if (node.name.empty()) node.name = bodyNames_.take("body");
     hang(node, parent);
     BodyInFile inFile{.body = tree_.spec.bodies.size() - 1,
                       .parent = parent,
                       .joints = node.joints.size(),
                       .given = node.given,
+                      .givenAxes = node.givenAxes,
+                      .aligns = node.aligns,
                       .hasGeoms = !node.geoms.empty()};
+    tree_.spec.bodies.back().buoyancy = node.buoyancy;
     takeGeoms(node, node.name, inFile.body, &inFile.solids);
     tree_.bodies.push_back(std::move(inFile));
     for (BodyNode& child : node.children) add(child, node.name);

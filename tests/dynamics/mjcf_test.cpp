@@ -14,147 +14,21 @@
 #include "bench/mujoco_model.h"
 #include "dynamics/energy.h"
 #include "dynamics/equations_of_motion.h"
+#include "dynamics/forward_dynamics.h"
 #include "dynamics/stepper.h"
 #include "formats/mjcf_reader.h"
+#include "geometry/rotation.h"
 #include "kinematics/forward_kinematics.h"
 #include "support/block_surface.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
+#include "support/mujoco_peer.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::mjcf_test {
 
 using Eigen::VectorXd;
-
-struct DataDeleter {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-
-// MuJoCo's model in postures of ours. Its joints come in the order of the file, each with coordinates of its
-// own: P takes our velocities to all of its.
-class Peer {
- public:
-  Peer(bench::MujocoModel theirs, const SceneSpec& spec, const Model& ours)
-      : model_(std::move(theirs)), data_(mj_makeData(model_.get())), ours_(ours) {
-    model_->opt.disableflags |= mjDSBL_CONSTRAINT;
-    model_->opt.enableflags |= mjENBL_ENERGY;
-    model_->opt.density = model_->opt.viscosity = 0;
-    for (const JointSpec& joint : spec.joints)
-      if (joint.type != JointType::kRigid) joints_.push_back(jointOf(joint.name));
-    EXPECT_EQ(static_cast<int>(joints_.size()), model_->njnt);
-    P_ = Eigen::MatrixXd::Zero(model_->nv, ours.nv());
-    for (int k = 0; k < model_->njnt; ++k) {
-      const Joint& joint = *joints_.at(static_cast<std::size_t>(k));
-      P_.block(model_->jnt_dofadr[k], joint.vIndex, joint.nv, joint.nv).diagonal().setConstant(joint.ratio);
-    }
-  }
-
-  VectorXd start() const {
-    VectorXd q(ours_.nq());
-    for (int k = 0; k < model_->njnt; ++k) {
-      const Joint& joint = *joints_[static_cast<std::size_t>(k)];
-      if (!joint.mimics)
-        q.segment(joint.qIndex, joint.nq) =
-            Eigen::Map<const VectorXd>(model_->qpos0 + model_->jnt_qposadr[k], joint.nq);
-    }
-    return q;
-  }
-
-  void set(const VectorXd& q) { set(q, VectorXd::Zero(ours_.nv())); }
-  void set(const VectorXd& q, const VectorXd& v) {
-    Eigen::Map<VectorXd>(data_->qvel, model_->nv) = P_ * v;
-    for (int k = 0; k < model_->njnt; ++k) {
-      const Joint& joint = *joints_[static_cast<std::size_t>(k)];
-      double* at = data_->qpos + model_->jnt_qposadr[k];
-      for (int i = 0; i < joint.nq; ++i)
-        at[i] = joint.nq == 1 ? joint.ratio * q[joint.qIndex] + joint.offset : q[joint.qIndex + i];
-    }
-    mj_forward(model_.get(), data_.get());
-  }
-
-  Eigen::MatrixXd massMatrix() const {
-    Eigen::MatrixXd M(model_->nv, model_->nv);
-    mj_fullM(model_.get(), M.data(), data_->qM);
-    return P_.transpose() * M * P_;
-  }
-  // Of springs and dampers.
-  VectorXd passiveForces() const {
-    return P_.transpose() * Eigen::Map<const VectorXd>(data_->qfrc_passive, model_->nv);
-  }
-  Eigen::Vector3d gravity() const { return Eigen::Map<const Eigen::Vector3d>(model_->opt.gravity); }
-  double potentialEnergy() const { return data_->energy[0]; }
-  double kineticEnergy() const { return data_->energy[1]; }
-
-  int bodies() const { return model_->nbody; }
-  std::string name(int body) const {
-    const char* const name = mj_id2name(model_.get(), mjOBJ_BODY, body);
-    return name && *name ? name : "body";
-  }
-  double mass(int body) const { return model_->body_mass[body]; }
-  Pose X_WB(int body) const {
-    Pose X;
-    X.p = Eigen::Map<const Eigen::Vector3d>(data_->xpos + 3 * body);
-    X.R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data_->xmat + 9 * body);
-    return X;
-  }
-
- private:
-  const Joint* jointOf(const std::string& name) const {
-    const auto found = std::find_if(ours_.joints().begin(), ours_.joints().end(),
-                                    [&](const Joint& joint) { return joint.name == name; });
-    return &*found;
-  }
-
-  bench::MujocoModel model_;
-  std::unique_ptr<mjData, DataDeleter> data_;
-  const Model& ours_;
-  std::vector<const Joint*> joints_;
-  Eigen::MatrixXd P_;
-};
-
-VectorXd randomPositions(Rng& rng, const Model& model) {
-  VectorXd q = rng.normalVector(model.nq());
-  for (const Joint& joint : model.joints())
-    if (joint.nq > joint.nv) q.segment<4>(joint.qIndex + joint.nq - 4).normalize();
-  return q;
-}
-
-void expectNear(double ours, double theirs, double tolerance) {
-  EXPECT_NEAR(ours, theirs, tolerance * std::max(1., std::abs(theirs)));
-}
-
-void expectSame(bench::MujocoModel loaded, const SceneSpec& spec, double tolerance = 1e-9, int postures = 5) {
-  const Model model = compile(spec);
-  Peer peer(std::move(loaded), spec, model);
-  EXPECT_LT((model.initialPositions() - peer.start()).norm(), 1e-12);
-  for (int body = 1; body < peer.bodies(); ++body)
-    EXPECT_NEAR(model[model.body(peer.name(body))].mass, peer.mass(body), tolerance * peer.mass(body))
-        << peer.name(body);
-  Rng rng(83);
-  for (int i = 0; i < postures; ++i) {
-    const VectorXd q = i == 0 ? model.initialPositions() : randomPositions(rng, model);
-    const VectorXd v = rng.normalVector(model.nv());
-    peer.set(q, v);
-    const BodyPoses poses = forwardKinematics(model, q);
-    for (int body = 1; body < peer.bodies(); ++body)
-      EXPECT_TRUE(isApprox(poses[model.body(peer.name(body))], peer.X_WB(body), 1e-9)) << peer.name(body);
-    if (model.nv() == 0) continue;
-    const Eigen::MatrixXd theirs = peer.massMatrix();
-    EXPECT_LE((massMatrix(model, q) - theirs).cwiseAbs().maxCoeff(),
-              tolerance * theirs.cwiseAbs().maxCoeff());
-    // At such speeds friction is none.
-    const VectorXd forces = jointForces(model, q, v, {.friction = true, .frictionSpeed = 1e300});
-    EXPECT_LE((forces - peer.passiveForces()).norm(), tolerance * peer.passiveForces().norm());
-    const Energy ours = energy(model, q, v, peer.gravity());
-    expectNear(ours.potential, peer.potentialEnergy(), tolerance);
-    expectNear(ours.kinetic, peer.kineticEnergy(), tolerance);
-  }
-}
-
-void expectSame(const std::string& xml, const SceneSpec& spec, double tolerance = 1e-9) {
-  expectSame(bench::loadMujoco(xml), spec, tolerance);
-}
 
 void eraseAll(std::string& text, const std::string& part) {
   for (std::size_t at; (at = text.find(part)) != std::string::npos;) text.erase(at, part.size());
@@ -315,6 +189,29 @@ TEST(MjcfPeers, AgreeOnMasses) {
   }
 }
 
+// MuJoCo 2.2.2 does not know gravcomp: there, a force on the body carries it.
+TEST(MjcfPeers, AgreeOnGravityCompensation) {
+  const std::vector<std::pair<std::string, double>> shares = {
+      {"a", .3}, {"b", -.4}, {"c", 1.2}, {"d", 1}, {"welded", .5}, {"swing", 2}, {"fixed", 1}};
+  std::string carried = kEverything;
+  for (const auto& [name, share] : shares) {
+    const std::string tag = "<body name=\"" + name + "\"";
+    carried.insert(carried.find(tag) + tag.size(), " gravcomp=\"" + std::to_string(share) + "\"");
+  }
+  const SceneSpec spec = parseMjcf(carried, "m.xml").spec;
+  const Model model = compile(spec);
+  MujocoPeer peer(bench::loadMujoco(kEverything), spec, model);
+  for (const auto& [name, share] : shares)
+    peer.push(name, {0, 0, 9.81 * share * model[model.body(name)].mass});
+  Rng rng(84);
+  for (int i = 0; i < 20; ++i) {
+    const VectorXd q = randomPosture(rng, model), still = VectorXd::Zero(model.nv());
+    peer.set(q);
+    const VectorXd theirs = peer.accelerations();
+    EXPECT_LT((forwardDynamics(model, q, still, still) - theirs).norm(), 1e-7 * theirs.norm());
+  }
+}
+
 // MuJoCo keeps both points of a <connect>, each in its body.
 TEST(MjcfPeers, AgreeOnPins) {
   std::string xml = kEverything;
@@ -333,6 +230,30 @@ TEST(MjcfPeers, AgreeOnPins) {
   }
 }
 
+// Three points of a <weld> keep the relative pose that MuJoCo keeps.
+TEST(MjcfPeers, AgreeOnWelds) {
+  std::string xml = kEverything;
+  xml.insert(xml.rfind("</mujoco>"),
+             "<equality><weld body1='c' body2='d'/><weld body1='b'/>"
+             "<weld body1='swing' body2='a' relpose='.1 .2 .3 1 2 3 4' anchor='1 2 3'/>"
+             "<weld body1='a' body2='swing' relpose='.1 .2 .3 0 0 0 0'/></equality>");
+  const Model model = compile(parseMjcf(xml, "m.xml").spec);
+  const auto theirs = bench::loadMujoco(xml);
+  ASSERT_EQ(theirs->neq, 4);
+  ASSERT_EQ(model.pins().size(), 12u);
+  for (int k = 0; k < 12; ++k) {
+    const Pin& pin = model.pins()[static_cast<std::size_t>(k)];
+    const double* const data = theirs->eq_data + static_cast<std::ptrdiff_t>(mjNEQDATA) * (k / 3);
+    // The point of body 1 that `anchor` of body 2 meets, and the quaternion.
+    const Eigen::Matrix3d R = rotationFromQuaternion(Eigen::Map<const Quaternion>(data + 6));
+    const Eigen::Vector3d anchor = Eigen::Map<const Eigen::Vector3d>(data),
+                          there = Eigen::Map<const Eigen::Vector3d>(data + 3);
+    EXPECT_LT((there + R * (pin.p_BQ - anchor) - pin.p_AP).norm(), 1e-9) << k;
+  }
+  const auto cornerOf = [&](int k) { return model.pins()[static_cast<std::size_t>(k)].p_BQ; };
+  EXPECT_GT((cornerOf(1) - cornerOf(0)).cross(cornerOf(2) - cornerOf(0)).norm(), 0.01);
+}
+
 // Joints that follow have no coordinates here, and their own there.
 TEST(MjcfPeers, AgreeOnFollowers) {
   const std::string xml =
@@ -344,7 +265,7 @@ TEST(MjcfPeers, AgreeOnFollowers) {
   const SceneSpec spec = parseMjcf(xml, "m.xml").spec;
   const Model model = compile(spec);
   ASSERT_EQ(model.nv(), 1);
-  Peer peer(bench::loadMujoco(xml), spec, model);
+  MujocoPeer peer(bench::loadMujoco(xml), spec, model);
   for (const double q : {.3, 1., -2.}) {
     const VectorXd one = VectorXd::Constant(1, q);
     peer.set(one);
@@ -381,6 +302,138 @@ TEST(MjcfPeers, AgreeOnArmaturesAndSprings) {
       SCOPED_TRACE(all);
       expectSame(bench::loadMujoco(xml), parseMjcf(xml, "m.xml").spec, 1e-9, 20);
     }
+}
+
+// What <attach> stands for, written out for MuJoCo 2.2.2, which does not know it.
+TEST(MjcfPeers, AgreeOnAttachedModels) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder.path() / name) << "<mujoco>" << text << "</mujoco>";
+  };
+  const std::string tail =
+      "<geom type='box' size='.1 .2 .3' pos='0 .1 0'/><body name='@hand' pos='0 0 .4' gravcomp='0'>"
+      "<joint name='@k' type='slide' axis='1 0 1'/><joint name='@l' axis='1 0 0' armature='.3'/><geom "
+      "size='.1'/>"
+      "<body name='@tip' pos='.1 0 0'><joint name='@m' axis='0 1 0'/><geom size='.05' pos='0 0 "
+      ".1'/></body></body>";
+  const auto named = [&](const std::string& text, const std::string& prefix) {
+    std::string all = text;
+    for (std::size_t at; (at = all.find('@')) != all.npos;) all.replace(at, 1, prefix);
+    for (std::size_t at; (at = all.find(" gravcomp='0'")) != all.npos;) all.erase(at, 13);
+    return all;
+  };
+  write("arm.xml",
+        "<compiler angle='radian'/><default><joint damping='.2'/></default><worldbody><geom size='.3'/>"
+        "<body name='arm' pos='1 0 0' euler='0 .5 0'><joint name='j' axis='0 1 0' ref='.2'/>" +
+            named(tail, "") +
+            "</body></worldbody><equality><joint joint1='m' joint2='j' polycoef='.1 2 0 0 0'/>"
+            "</equality><contact><exclude body1='arm' body2='tip'/></contact>"
+            "<keyframe><key name='up' qpos='.1 .2 .3 .4'/></keyframe>");
+  write(
+      "both.xml",
+      "<asset><model name='other' file='arm.xml'/></asset><default><joint damping='9'/></default><worldbody>"
+      "<body name='base' pos='1 2 3'><freejoint/><geom size='.4'/><frame pos='.1 .2 .3' euler='20 0 40'>"
+      "<attach model='other' body='arm' prefix='l_'/></frame></body>"
+      "<attach model='other' body='hand' prefix='h_'/><frame pos='0 0 1'><attach model='other' prefix='r_'/>"
+      "</frame></worldbody><contact><exclude body1='l_tip' body2='base'/></contact>");
+  const auto armAt = [&](const std::string& prefix) {
+    return "<body name='" + prefix + "arm' pos='1 0 0' euler='0 28.64788975654116 0'><joint name='" + prefix +
+           "j' axis='0 1 0' ref='11.459155902616464' damping='.2'/>" + named(tail, prefix) + "</body>";
+  };
+  const auto handIn = [&](const std::string& prefix) {
+    const std::string all = named(tail, prefix);
+    return all.substr(all.find("<body"));
+  };
+  const std::string whole =
+      "<mujoco><default><joint damping='.2'/></default><worldbody>"
+      "<body name='base' pos='1 2 3'><freejoint/><geom size='.4'/><body name='frame' pos='.1 .2 .3' "
+      "euler='20 0 40'>" +
+      armAt("l_") + "</body></body>" + handIn("h_") + "<body name='world frame' pos='0 0 1'>" + armAt("r_") +
+      "</body></worldbody><equality><joint joint1='l_m' joint2='l_j' polycoef='.1 2 0 0 0'/>"
+      "<joint joint1='r_m' joint2='r_j' polycoef='.1 2 0 0 0'/></equality></mujoco>";
+  const SceneFile attached = readMjcf(folder.path() / "both.xml");
+  EXPECT_TRUE(attached.notes.empty()) << toString(attached.notes.front());
+  const Model ours = compile(attached.spec), expanded = compile(parseMjcf(whole, "m.xml").spec);
+  expectSame(whole, parseMjcf(whole, "m.xml").spec);
+  ASSERT_EQ(ours.nv(), expanded.nv());
+  ASSERT_EQ(ours.shapes().size(), expanded.shapes().size() + 1) << "the ball of the attached world";
+  Rng rng(85);
+  const auto positionsOf = [](const Model& model, const Model& other, const VectorXd& q) {
+    VectorXd same(other.nq());
+    for (const Joint& joint : model.joints()) {
+      const auto found = std::ranges::find(other.joints(), joint.name, &Joint::name);
+      if (!joint.mimics && joint.nq > 0)
+        same.segment(found->qIndex, joint.nq) = q.segment(joint.qIndex, joint.nq);
+    }
+    return same;
+  };
+  for (int i = 0; i < 5; ++i) {
+    const VectorXd q = i == 0 ? ours.initialPositions() : randomPosture(rng, ours);
+    const VectorXd there = positionsOf(ours, expanded, q);
+    const BodyPoses poses = forwardKinematics(ours, q), wanted = forwardKinematics(expanded, there);
+    for (const std::string body :
+         {"base", "l_arm", "l_hand", "l_tip", "h_hand", "h_tip", "r_arm", "r_hand", "r_tip"})
+      EXPECT_TRUE(isApprox(poses[ours.body(body)], wanted[expanded.body(body)], 1e-12)) << body;
+    const Eigen::MatrixXd M = massMatrix(ours, q), N = massMatrix(expanded, there);
+    EXPECT_NEAR(M.norm(), N.norm(), 1e-10);
+    EXPECT_NEAR(energy(ours, q, VectorXd::Zero(ours.nv())).potential,
+                energy(expanded, there, VectorXd::Zero(ours.nv())).potential, 1e-9);
+  }
+  std::vector<std::string> choices, postures;
+  for (const CollisionChoice& choice : attached.spec.collisionChoices)
+    if (choice.reason == "exclude") choices.push_back(choice.a + "-" + choice.b);
+  EXPECT_EQ(choices, (std::vector<std::string>{"l_arm-l_tip", "r_arm-r_tip", "l_tip-base"}));
+  for (const PostureSpec& posture : attached.spec.postures) postures.push_back(posture.name);
+  EXPECT_EQ(postures, (std::vector<std::string>{"key:l_up", "key:h_up", "key:r_up"}));
+  for (const JointSpec& joint : attached.spec.joints)
+    EXPECT_EQ(joint.damping, positionCount(joint.type) == 1 ? .2 : 0) << joint.name;
+}
+
+// MuJoCo 2.2.2 does not know alignfree, but where the frames of inertias stand: those of a last body on a
+// free joint, by one geom or several, a mesh, or given moments.
+TEST(MjcfPeers, AgreeOnAlignedBodies) {
+  const std::string mesh =
+      "<asset><mesh name='m' vertex='0 0 0 1 0 0 0 2 0 0 0 3' scale='.1 .2 .1'/></asset>";
+  for (const std::string inside :
+       {"<geom type='box' size='.3 .1 .2' pos='1 2 3' euler='10 20 30'/>",
+        "<geom type='box' size='.3 .1 .2' pos='1 2 3' euler='10 20 30'/><geom size='.1' pos='-.2 0 .5'/>",
+        "<geom type='box' size='.1 .2 .3'/><geom type='box' size='.1 .2 .3' pos='0 0 1'/>",
+        "<geom type='mesh' mesh='m' pos='1 2 3' euler='10 20 30'/>",
+        "<geom type='mesh' mesh='m' pos='1 2 3' euler='10 20 30'/><geom size='.1'/>",
+        "<inertial pos='.1 .2 .3' mass='2' diaginertia='.2 .4 .3' euler='40 50 60'/><geom size='.1'/>",
+        "<inertial pos='.1 .2 .3' mass='2' fullinertia='.3 .4 .5 .01 -.02 .03'/>",
+        "<inertial pos='.1 .2 .3' mass='2' fullinertia='.5 .4 .3 0 0 0'/>"}) {
+    SCOPED_TRACE(inside);
+    const double tolerance = inside.find("mesh") == inside.npos ? 1e-9 : 1e-5;  // vertices are floats there
+    const auto model = [&](const std::string& compiler, const std::string& joint) {
+      return "<mujoco><compiler exactmeshinertia='true'/>" + compiler + mesh +
+             "<worldbody><body name='a' pos='3 2 1' euler='-10 70 5'>" + joint + inside +
+             "</body></worldbody></mujoco>";
+    };
+    const auto theirs = bench::loadMujoco(model("", "<freejoint/>"));
+    const auto placed = [](const double* p, const double* q) {
+      return Pose{rotationFromQuaternion(Eigen::Map<const Quaternion>(q)),
+                  Eigen::Map<const Eigen::Vector3d>(p)};
+    };
+    const Pose X_BI = placed(theirs->body_ipos + 3, theirs->body_iquat + 4);
+    const Pose X_WI = placed(theirs->qpos0, theirs->qpos0 + 3) * X_BI;
+    const Model bare = compile(parseMjcf(model("", "<freejoint/>"), "m.xml").spec);
+    const std::string on = "<compiler alignfree='true'/>";
+    for (const std::string& xml : {model(on, "<freejoint/>"), model(on, "<joint type='free'/>"),
+                                   model("", "<freejoint align='true'/>")}) {
+      const Model ours = compile(parseMjcf(xml, "m.xml").spec);
+      const Pose X_WB = forwardKinematics(ours, ours.initialPositions())[ours.body("a")];
+      EXPECT_TRUE(isApprox(X_WB, X_WI, tolerance));
+      const Body& body = ours[ours.body("a")];
+      EXPECT_EQ(body.p_BBcm, Eigen::Vector3d::Zero());
+      const Eigen::Vector3d moments = Eigen::Map<const Eigen::Vector3d>(theirs->body_inertia + 3);
+      EXPECT_LT((body.I_BBcm_B - Eigen::Matrix3d(moments.asDiagonal())).norm(), tolerance * moments.norm());
+      for (std::size_t i = 0; i < ours.shapes().size(); ++i)
+        EXPECT_TRUE(isApprox(X_BI * ours.shapes()[i].X_BS, bare.shapes()[i].X_BS, tolerance));
+    }
+    const Model kept = compile(parseMjcf(model(on, "<freejoint align='false'/>"), "m.xml").spec);
+    EXPECT_EQ(kept.initialPositions(), bare.initialPositions());
+  }
 }
 
 TEST(MjcfPeers, AgreeOnMeshes) {
@@ -474,7 +527,7 @@ TEST(MjcfPeers, AgreeOnContypeAndConaffinity) {
     }
     const std::string xml = "<mujoco><worldbody>" + bodies + "</worldbody></mujoco>";
     const bench::MujocoModel peer = bench::loadMujoco(xml);
-    const std::unique_ptr<mjData, DataDeleter> data(mj_makeData(peer.get()));
+    const std::unique_ptr<mjData, MujocoDataDeleter> data(mj_makeData(peer.get()));
     mj_forward(peer.get(), data.get());
     std::set<std::pair<int, int>> wanted, found;
     for (int i = 0; i < data->ncon; ++i)

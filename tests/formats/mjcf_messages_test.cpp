@@ -313,10 +313,10 @@ TEST(MjcfMessages, OfJoints) {
       {body("<joint springdamper='0 1'/>@<joint name='j' springdamper='1 1'/><joint springdamper='2 1'/>"),
        "warning: joint 'j': springdamper: found joints that move no mass, wanted masses, which say how "
        "strong springs are; it is left out; motion will differ"},
-      {world("<body @gravcomp='1'/><body gravcomp='0'/>"),
-       "warning: <body>: motion will differ: attributes that are not read: gravcomp"},
-      {world("<body><freejoint @align='true'/></body><body><freejoint align='auto'/></body>"),
-       "warning: <freejoint>: motion will differ: attributes that are not read: align"},
+      {"<mujoco><worldbody>@<body name='a'><freejoint align='true'/><geom size='1'/></body></worldbody>"
+       "<equality><connect body1='a' anchor='0 0 0'/></equality></mujoco>",
+       "warning: body 'a': align: found a <connect> or <weld> of the body, wanted none, for its points would "
+       "move; the body keeps its frame; motion will differ"},
   });
 }
 
@@ -356,7 +356,8 @@ TEST(MjcfMessages, OfEqualities) {
        "<equality>: <connect>: attribute 'anchor': found '0 0', wanted 3 numbers"},
       {equal("@<connect body1='a'/>"), "<equality>: <connect>: attribute 'anchor' is missing"},
       {equal(connects(1000) + "@<connect body1='a' anchor='0 0 0'/>"),
-       "<equality>: <connect>: too many <connect>: wanted at most 1000"},
+       "<equality>: <connect>: too many <connect> and <weld>: wanted at most 1000; a <weld> counts as "
+       "3"},
   });
   checkNotes({
       {equal("@<joint joint1='j'/>"),
@@ -371,8 +372,8 @@ TEST(MjcfMessages, OfEqualities) {
        "differ\nf:4:1: "
        "warning: "
        "<equality>: <joint>: joints that follow each other in a loop; this is ignored; motion will differ"},
-      {equal("@<weld/><weld/><connect site1='a' site2='b'/>"),
-       "warning: <weld> is ignored: motion will differ (2 times)\nf:3:25: warning: a <connect> of sites is "
+      {equal("<weld body1='a' active='false'/><weld body1='a' site1='a'/>@<connect site1='a' site2='b'/>"),
+       "warning: a <connect> of sites is ignored: motion will differ\nf:3:43: warning: a <weld> of sites is "
        "ignored: motion will differ"},
       {equal("@<tendon tendon1='t'/>"),
        "warning: a <tendon> in <equality>, except with <fixed> ones that couple two joints linearly, is "
@@ -409,8 +410,6 @@ TEST(MjcfMessages, OfWhatIsNotRead) {
       {model("<option><flag @gravity='disable' filterparent='enable' energy='enable'/></option>"),
        "warning: <flag>: motion will differ: attributes that are not read: gravity"},
       {model("@<visual/><sensor/><visual/>"), "note: <visual> is ignored: the picture will differ (2 times)"},
-      {model("<compiler @alignfree='true'/><compiler alignfree='false'/>"),
-       "warning: <compiler>: motion will differ: attributes that are not read: alignfree"},
       {"\n @<?xml version='1.0'?><mujoco/>",
        "warning: not well-formed XML: blanks before the declaration; they are skipped"},
   });
@@ -423,7 +422,14 @@ TEST(MjcfMessages, OfWhatCannotBeLeftOut) {
   check({
       {body("@<composite/>"), "body 'a': <composite>" + wanted},
       {world("<frame>@<flexcomp/></frame>"), "<worldbody>: <frame>: <flexcomp>" + wanted},
-      {world("@<attach/>"), "<worldbody>: <attach>" + wanted},
+      {world("@<attach/>"), "<worldbody>: <attach>: attribute 'model' is missing"},
+      {model("<asset><model file='hand.xml'/></asset><worldbody><attach model='@hind'/></worldbody>"),
+       "<worldbody>: <attach>: unknown model: found 'hind', wanted the name of a <model> (did you mean "
+       "'hand'?)"},
+      {model("<asset><model name='h' file='@hand.xml'/></asset><worldbody><attach model='h' "
+             "prefix=''/></worldbody>"),
+       "<asset>: <model>: attribute 'file': found a scene that was given as text, wanted no <model>: only "
+       "models in files attach others"},
       {model("@<actuators/>"),
        "<mujoco>: unknown tag <actuators>: wanted one of MuJoCo's (did you mean 'actuator'?)"},
       {body("<replicate count='@0'/>"),

@@ -996,4 +996,26 @@ TEST(MjcfReader, SharesTheForceOfATendon) {
   EXPECT_EQ(spec.joints[1].maxEffort, 11);
 }
 
+TEST(MjcfReader, AttachesNoModelToItselfForEver) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "a.xml")
+      << "<mujoco><asset><model name='a' file='a.xml'/></asset><worldbody><body name='b'><geom size='1'/>"
+         "<attach model='a' prefix='x'/></body></worldbody></mujoco>";
+  EXPECT_REX_ERROR(readMjcf(folder.path() / "a.xml"),
+                   "found level 9 of models that attach others, wanted at most 8");
+  std::ofstream(folder.path() / "c.xml")
+      << "<mujoco><asset><model file='d.xml'/></asset><worldbody><attach model='d' body='x' "
+         "prefix=''/></worldbody></mujoco>";
+  std::ofstream(folder.path() / "d.xml") << "<mujoco><worldbody><body name='b'/></worldbody></mujoco>";
+  EXPECT_REX_ERROR(readMjcf(folder.path() / "c.xml"), "found 'x', wanted a body of the model 'd'");
+  std::ofstream(folder.path() / "d.xml")
+      << "<mujoco><worldbody><body name='x'><freejoint/></body></worldbody></mujoco>";
+  EXPECT_NO_THROW(static_cast<void>(readMjcf(folder.path() / "c.xml")));
+  std::ofstream(folder.path() / "c.xml")
+      << "<mujoco><asset><model file='d.xml'/></asset><worldbody><body name='e'><attach model='d' body='x' "
+         "prefix=''/></body></worldbody></mujoco>";
+  EXPECT_REX_ERROR(readMjcf(folder.path() / "c.xml"),
+                   "a free joint: found a body on 'e', wanted a body on the world");
+}
+
 }  // namespace rex::mjcf_reader_test

@@ -92,6 +92,9 @@ const std::map<std::string, std::string> kMujoco = {
     {"fixed/joint", "joint coef"},
     {"equality", "<connect> <weld> <joint> <tendon> <flex> <flexvert> <flexstrain> <distance> <plugin>"},
     {"connect", kEquality + " body1 body2 anchor site1 site2"},
+    {"model", "name file content_type"},
+    {"attach", "model body prefix"},
+    {"weld", kEquality + " body1 body2 relpose anchor site1 site2 torquescale"},
     {"equality/joint", kEquality + " joint1 joint2 polycoef"},
     {"equality/tendon", kEquality + " tendon1 tendon2 polycoef"},
     {"actuator",
@@ -195,7 +198,8 @@ std::string modelWith(const std::string& element, const std::string& attribute, 
                      "</tendon>"
                : "") +
           (element == "equality" ? tag("equality", "") : "") +
-          only("equality", "connect", "body1='a' anchor='0 0 0'") +
+          only("equality", "connect", "body1='a' anchor='0 0 0'") + only("equality", "weld", "body1='a'") +
+          only("asset", "model", "file='m.xml'") +
           (element == "equality/joint"
                ? "<equality>" + tag("equality/joint", "joint1='h' joint2='i'") + "</equality>"
                : "") +

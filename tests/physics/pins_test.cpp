@@ -58,6 +58,38 @@ TEST(PhysicsPins, SwingAFourBarAsOurDynamics) {
   EXPECT_GT(std::abs(ours.q[0] - 1), 1) << "it moves";
 }
 
+// Three pins weld: a pendulum that carries a box of its own swings as the one to which the box is fixed.
+TEST(PhysicsPins, WeldBodiesInThreePoints) {
+  const auto pendulum = [](bool isOne) {
+    SceneSpec spec;
+    addHinged(spec, "arm", 1, 0.02).axis = {1, 0, 0};
+    spec.joints[0].X_MC = translation(0, 0.5, 0);
+    addLoose(spec, "box", 2, boxShape(0.1, 0.2, 0.3), translation(0.1, 0.8, 0));
+    if (isOne) {
+      spec.joints.resize(1);
+      JointSpec& fixed = spec.joints.emplace_back();
+      fixed.name = "fixed", fixed.parent = "arm", fixed.child = "box";
+      fixed.type = JointType::kRigid;
+      fixed.X_PF = translation(0.1, 0.3, 0);
+      return spec;
+    }
+    for (const Eigen::Vector3d& p : {Eigen::Vector3d(0.1, 0, 0), {-0.1, 0.1, 0}, {-0.1, -0.1, 0}})
+      spec.pins.push_back({.a = "arm", .b = "box", .p_AP = Eigen::Vector3d(0.1, 0.3, 0) + p, .p_BQ = p});
+    return spec;
+  };
+  const Model model = compile(pendulum(false));
+  PhysicsWorld welded(model, kBare), one(compile(pendulum(true)), kBare);
+  double apart = 0;
+  for (int k = 0; k < 1000; ++k) {
+    welded.step(1e-3);
+    one.step(1e-3);
+    apart = std::max(apart, gap(model, welded.state().q));
+  }
+  EXPECT_LT(apart, 1e-3) << "metres";
+  EXPECT_GT(std::abs(one.state().q[0]), 1) << "it swings";
+  EXPECT_NEAR(welded.state().q[0], one.state().q[0], 0.02);
+}
+
 // Trees of all kinds of joints, some of which follow others, pinned where they are: to each other, to
 // themselves and to the world.
 TEST(PhysicsPins, AccelerateRandomTreesAsOurDynamics) {
