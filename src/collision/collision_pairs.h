@@ -51,9 +51,11 @@ struct PairVerdict {
 /// two bodies of a joint or a pin and everything fixed to them, where joints chained by massless links
 /// without shapes count as one; of everything fixed to the world, only the body that carries the joint
 /// counts. A free joint makes no neighbours, and overlaps at home with its descendants do not count, because
-/// they will be moved elsewhere. With kFourGenerations, neighbours are the two bodies of a joint, and those
-/// of a pin with everything fixed to them; overlaps at home do not count. Shapes that are paired
-/// in their masks may touch; other shapes of these bodies may touch only if these rules allow it.
+/// they will be moved elsewhere. What overlaps at home but not with all joints in the middle of their limits
+/// may collide: 0, the home of URDF, is often an end of a range, where a robot is folded. With
+/// kFourGenerations, neighbours are the two bodies of a joint, and those of a pin with everything fixed to
+/// them; overlaps at home do not count. Shapes that are paired in their masks may touch; other shapes of
+/// these bodies may touch only if these rules allow it.
 [[nodiscard]] std::vector<PairVerdict> pairVerdicts(const Model& model);
 
 /// The pairs of shapes in contact that may touch (ContactMask) on bodies that may collide, and those of pairs

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -247,6 +248,16 @@ int widestAxis(const std::vector<Standing>& all) {
   return axis;
 }
 
+// Where joints with limits are in the middle of them, and the others at home: 0, where many robots start, is
+// at an end of the limits, or beyond, and folds them into themselves.
+Eigen::VectorXd middlePositions(const Model& model) {
+  Eigen::VectorXd q = model.initialPositions();
+  for (Eigen::Index i = 0; i < q.size(); ++i)
+    if (const double middle = (model.lowerLimits()[i] + model.upperLimits()[i]) / 2; std::isfinite(middle))
+      q[i] = middle;
+  return q;
+}
+
 }  // namespace
 
 std::vector<HomeOverlap> homeOverlaps(
@@ -271,6 +282,13 @@ std::vector<HomeOverlap> homeOverlaps(
       if (depth > tolerance) found.push_back({{first.shape, second.shape}, depth});
     }
   }
+  const BodyPoses middle = forwardKinematics(model, middlePositions(model));
+  std::erase_if(found, [&](const HomeOverlap& one) {
+    const auto &a = model.shapes()[static_cast<std::size_t>(one.pair.a)],
+               &b = model.shapes()[static_cast<std::size_t>(one.pair.b)];
+    return !(proximity(a.shape, middle[a.body] * a.X_BS, b.shape, middle[b.body] * b.X_BS).distance <
+             -tolerance);
+  });
   std::ranges::sort(found, {}, [](const HomeOverlap& one) { return std::pair(one.pair.a, one.pair.b); });
   return found;
 }

@@ -71,7 +71,7 @@ class CoupledMotion {
   bool isCoupled_ = false;
 };
 
-/// Two shapes that overlap in the initial posture, and how deep, metres.
+/// Two shapes that overlap in the initial posture, how deep there, metres, and in the middle of all limits.
 struct HomeOverlap {
   ShapePair pair;
   double depth = 0;

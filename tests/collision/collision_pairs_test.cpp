@@ -157,6 +157,24 @@ TEST(CollisionPairs, KnowsTheRuleOfScenesOfTheCourse) {
             "ab neighbours, ac may collide, bc neighbours");
 }
 
+// A robot that is folded at 0, at an end of its limits, but not in their middle.
+TEST(CollisionPairs, KeepsWhatOverlapsOnlyAtAnEndOfTheLimits) {
+  for (const bool isFolded : {true, false}) {
+    const std::string range = isFolded ? "<limit lower='0' upper='3' effort='1' velocity='1'/>"
+                                       : "<limit lower='-3' upper='3' effort='1' velocity='1'/>";
+    const std::string axis = "<axis xyz='0 0 1'/>";
+    std::string hinge = joint("revolute", "A", "B", "0.25 0 0", axis),
+                arm = joint("revolute", "B", "C", "-0.2 0 0", axis);
+    for (std::string* one : {&hinge, &arm})
+      if (const std::size_t at = one->find("<limit"); at != one->npos)
+        one->replace(at, one->find("/>", at) + 2 - at, range);
+    const std::string text = urdf({"base", "A", "B", "C"}, joint("revolute", "base", "A") + hinge + arm);
+    EXPECT_EQ(reasons(text),
+              isFolded ? "AB neighbours, AC may collide, BC neighbours"
+                       : "AB neighbours, AC overlap at home by 0.15 m ('A' and 'C'), BC neighbours");
+  }
+}
+
 TEST(CollisionPairs, LeavesOutWhatOverlapsAtHomeAndSaysSo) {
   const auto chain = [](double height) {
     return urdf({"base", "A", "B", "C"}, joint("revolute", "base", "A") +
