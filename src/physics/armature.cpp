@@ -8,6 +8,9 @@
 namespace rex::internal {
 namespace {
 
+// The share of its mobility below which a row can move nothing.
+constexpr double kLeastLeft = 1e-9;
+
 using Velocities = Eigen::Map<Eigen::VectorXd>;
 
 Eigen::Map<const Eigen::VectorXd> velocitiesOf(const btMultiBody& body) {
@@ -73,6 +76,12 @@ btScalar ArmatureSolver::solveGroupCacheFriendlySetup(btCollisionObject** bodies
     armature->slowDown();
     isWanted = true;
   }
+  for (int i = 0; i < m_tmpNumMultiBodyConstraints && couplings_ != nullptr; ++i) {
+    CoupledBody* const coupled = couplings_->coupled(*m_tmpMultiBodyConstraints[i]->getMultiBodyA());
+    if (coupled == nullptr) continue;
+    coupled->begin();
+    isWanted = true;
+  }
   const btScalar residual = btMultiBodyConstraintSolver::solveGroupCacheFriendlySetup(
       bodies, bodyCount, manifolds, manifoldCount, constraints, constraintCount, info, debug);
   if (!isWanted) return residual;
@@ -93,7 +102,14 @@ void ArmatureSolver::correct(btMultiBodySolverConstraint& row) {
   if (row.m_multiBodyB != nullptr)
     less += correctSide(*row.m_multiBodyB, row.m_jacBindex, row.m_deltaVelBindex, row.m_appliedImpulse);
   if (less == 0 || row.m_jacDiagABInv == 0) return;
-  const double scale = 1 / (1 - less * row.m_jacDiagABInv);
+  // Nothing is left that it could move: a joint of a mechanism that is locked.
+  const double left = 1 - less * row.m_jacDiagABInv;
+  if (left < kLeastLeft) {
+    row.m_jacDiagABInv = row.m_rhs = row.m_cfm = 0;
+    row.m_appliedImpulse = 0;
+    return;
+  }
+  const double scale = 1 / left;
   row.m_jacDiagABInv *= scale;
   row.m_rhs *= scale;
   row.m_cfm *= scale;
@@ -103,11 +119,13 @@ void ArmatureSolver::correct(btMultiBodySolverConstraint& row) {
 // changed already. Returns by how much the mobility is less.
 double ArmatureSolver::correctSide(const btMultiBody& body, int jacobian, int velocities, double impulse) {
   const Armature* const armature = Armature::of(body);
-  if (armature == nullptr) return 0;
+  const CoupledBody* const coupled = couplings_ != nullptr ? couplings_->coupled(body) : nullptr;
+  if (armature == nullptr && coupled == nullptr) return 0;
   const int count = velocityCount(body);
   Velocities answer(&m_data.m_deltaVelocitiesUnitImpulse[jacobian], count);
   change_ = -answer;
-  armature->correct(answer);
+  if (armature != nullptr) armature->correct(answer);
+  if (coupled != nullptr) coupled->correct(answer);
   change_ += answer;
   if (impulse != 0) {
     const_cast<btMultiBody&>(body).applyDeltaVeeMultiDof2(change_.data(), impulse);

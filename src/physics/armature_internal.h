@@ -48,8 +48,15 @@ class Armature {
 void answerOf(const btMultiBody& body, const btScalar* impulse, btScalar* answer,
               btAlignedObjectArray<btScalar>& scratchR, btAlignedObjectArray<btVector3>& scratchV);
 
-/// Bullet's solver for bodies with armature: all rows, those of contacts too, meet the inertia of both.
+class Couplings;
+
+/// Bullet's solver for bodies with armature, and for those that couplings hold: all rows, those of contacts
+/// too, meet the inertia of both, and move what follows.
 class ArmatureSolver : public btMultiBodyConstraintSolver {
+ public:
+  /// What holds bodies; it must outlive the steps.
+  void use(Couplings* couplings) { couplings_ = couplings; }
+
  protected:
   btScalar solveGroupCacheFriendlySetup(btCollisionObject** bodies, int bodyCount,
                                         btPersistentManifold** manifolds, int manifoldCount,
@@ -60,6 +67,7 @@ class ArmatureSolver : public btMultiBodyConstraintSolver {
   void correct(btMultiBodySolverConstraint& row);
   double correctSide(const btMultiBody& body, int jacobian, int velocities, double impulse);
 
+  Couplings* couplings_ = nullptr;
   Eigen::VectorXd change_;
 };
 

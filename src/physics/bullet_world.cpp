@@ -221,6 +221,7 @@ void BulletWorld::addCouplings(const Model& model, const std::vector<Articulatio
     followers[i].leader = leaders[static_cast<std::size_t>(followed[i])];
   couplings_.emplace(followers, pins);
   world_.use(&*couplings_);
+  solver_.use(&*couplings_);
   for (Articulation* const tree : trees) tree->place(initialState(model));
   if (const JointId joint = couplings_->massless(model); joint != kNoJoint)
     failForNoMass(model, model[joint]);

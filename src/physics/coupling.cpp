@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <Eigen/Cholesky>
@@ -14,19 +15,24 @@ namespace rex::internal {
 int LockedRows::getIslandIdA() const { return m_bodyA->getBaseCollider()->getIslandTag(); }
 int LockedRows::getIslandIdB() const { return m_bodyB->getBaseCollider()->getIslandTag(); }
 
-btMultiBodySolverConstraint& LockedRows::addRow(int i, double velocity, btMultiBodyConstraintArray& rows,
-                                                btMultiBodyJacobianData& data,
-                                                const btContactSolverInfo& info) {
+void LockedRows::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                                      const btContactSolverInfo& info) {
+  if (!isInSolver_) return;
+  measure();
+  for (int i = 0; i < getNumRows(); ++i) addRow(i, rows, data, info);
+}
+
+void LockedRows::addRow(int i, btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                        const btContactSolverInfo& info) {
   const btVector3 none(0, 0, 0);
   btMultiBodySolverConstraint& row = rows.expandNonInitializing();
   row.m_orgConstraint = this;
   row.m_orgDofIndex = i;
   fillMultiBodyConstraint(row, data, jacobianA(i), jacobianB(i), none, none, none, none, 0, info,
-                          -BT_LARGE_FLOAT, BT_LARGE_FLOAT, false, 1, false, velocity);
+                          -BT_LARGE_FLOAT, BT_LARGE_FLOAT, false, 1, false, wantedOfSolver(i));
   row.m_cfm = 0;
   row.m_contactNormal1 = row.m_contactNormal2 = none;
   row.m_relpos1CrossNormal = row.m_relpos2CrossNormal = none;
-  return row;
 }
 
 namespace {
@@ -51,26 +57,23 @@ double PinRows::wanted(int row) const {
   return -kClosingRate * gap_[row] / std::max(1.0, kClosingRate / kClosingSpeed * gap_.length());
 }
 
-void PinRows::measure(const PinEnd& end, const btVector3& axis, double sign, double* coefficients,
-                      btMultiBodyJacobianData& data) {
+void PinRows::addSpeed(const PinEnd& end, const btVector3& axis, double sign, double* coefficients) {
   if (end.body == nullptr) return;
   one_.resize(velocityCount(*end.body));
   end.body->fillConstraintJacobianMultiDof(end.link, end.inWorld(), btVector3(0, 0, 0), axis, &one_[0],
-                                           data.scratch_r, data.scratch_v, data.scratch_m);
+                                           scratchR_, scratchV_, scratchM_);
   for (int i = 0; i < one_.size(); ++i) coefficients[i] += sign * one_[i];
 }
 
-void PinRows::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
-                                   const btContactSolverInfo& info) {
+void PinRows::measure() {
   gap_ = A_.inWorld() - B_.inWorld();
   for (int i = 0; i < kAxes; ++i) {
     btVector3 axis(0, 0, 0);
     axis[i] = 1;
     std::fill_n(jacobianA(i), velocityCount(*m_bodyA), 0.0);
     if (!isInOneBody()) std::fill_n(jacobianB(i), velocityCount(*m_bodyB), 0.0);
-    measure(A_, axis, 1, jacobianA(i), data);
-    measure(B_, axis, -1, isInOneBody() ? jacobianA(i) : jacobianB(i), data);
-    addRow(i, wanted(i), rows, data, info);
+    addSpeed(A_, axis, 1, jacobianA(i));
+    addSpeed(B_, axis, -1, isInOneBody() ? jacobianA(i) : jacobianB(i));
   }
 }
 
@@ -104,10 +107,63 @@ double CouplingRow::wanted(int) const {
                         one.ratio * one.leader.body->getJointPos(one.leader.link) - one.offset);
 }
 
-// Without the error, which settle() lets fade.
-void CouplingRow::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
-                                       const btContactSolverInfo& info) {
-  addRow(0, 0, rows, data, info);
+namespace {
+
+// Rows are scaled alike; those that can move nothing get 0, and are left out, as Bullet does.
+Eigen::VectorXd scaleOf(const Eigen::MatrixXd& A) {
+  return A.diagonal().unaryExpr(
+      [](double mobility) { return mobility > kLeastMobility ? 1 / std::sqrt(mobility) : 0; });
+}
+
+// A positive definite matrix of the scaled rows. Rows of pins may depend on each other: what they agree on
+// remains right.
+Eigen::MatrixXd scaled(const Eigen::MatrixXd& A, const Eigen::VectorXd& scale, bool hasPins) {
+  Eigen::MatrixXd S = scale.asDiagonal() * A * scale.asDiagonal();
+  for (Eigen::Index i = 0; i < S.rows(); ++i)
+    if (scale[i] == 0) S(i, i) = 1;
+  if (hasPins) S.diagonal().array() += kLeastShare;
+  return S;
+}
+
+}  // namespace
+
+CoupledBody::CoupledBody(btMultiBody& body, std::vector<LockedRows*> held, bool hasPins)
+    : body_(body), held_(std::move(held)), hasPins_(hasPins) {
+  Eigen::Index count = 0;
+  for (LockedRows* const rows : held_) {
+    count += rows->getNumRows();
+    rows->leaveSolver();
+  }
+  Gt_.resize(velocityCount(body), count);
+  W_ = Gt_;
+  wanted_.resize(count);
+}
+
+void CoupledBody::begin() {
+  if (std::exchange(isBegun_, true)) return;
+  Eigen::Index column = 0;
+  for (LockedRows* const rows : held_) {
+    rows->measure();
+    for (int i = 0; i < rows->getNumRows(); ++i, ++column) {
+      Gt_.col(column) = Eigen::Map<const Eigen::VectorXd>(rows->coefficients(i, body_), Gt_.rows());
+      answerOf(body_, Gt_.col(column).data(), W_.col(column).data(), scratchR_, scratchV_);
+      wanted_[column] = rows->wanted(i);
+    }
+  }
+  const Eigen::MatrixXd A = Gt_.transpose() * W_;
+  scale_ = scaleOf(A);
+  llt_.compute(scaled(A, scale_, hasPins_));
+  const Eigen::Map<const Eigen::VectorXd> v(body_.getVelocityVector(), Gt_.rows());
+  const Eigen::VectorXd change = W_ * solve(wanted_ - Gt_.transpose() * v);
+  body_.applyDeltaVeeMultiDof(change.data(), 1);
+}
+
+Eigen::VectorXd CoupledBody::solve(const Eigen::VectorXd& missing) const {
+  return scale_.cwiseProduct(llt_.solve(scale_.cwiseProduct(missing)));
+}
+
+void CoupledBody::correct(Eigen::Ref<Eigen::VectorXd> answer) const {
+  answer -= W_ * solve(Gt_.transpose() * answer);
 }
 
 Couplings::Couplings(const std::vector<Follower>& followers, const Pins& pins) {
@@ -117,6 +173,15 @@ Couplings::Couplings(const std::vector<Follower>& followers, const Pins& pins) {
   for (Group& group : groups_)
     group.hasPins = std::ranges::any_of(
         group.held, [](const LockedRows* held) { return dynamic_cast<const PinRows*>(held) != nullptr; });
+  for (Group& group : groups_)
+    if (group.bodies.size() == 1)
+      group.alone = std::make_unique<CoupledBody>(*group.bodies.front(), group.held, group.hasPins);
+}
+
+CoupledBody* Couplings::coupled(const btMultiBody& body) {
+  for (const Group& group : groups_)
+    if (group.alone && group.bodies.front() == &body) return group.alone.get();
+  return nullptr;
 }
 
 void Couplings::join(LockedRows* rows) {
@@ -153,6 +218,7 @@ void Couplings::settle(Aim aim) {
 
 // v += M^-1 G^T (G M^-1 G^T)^-1 (wanted - G v), where G holds all rows.
 void Couplings::settle(Group& group, Aim aim) {
+  if (group.alone) group.alone->end();
   struct Row {
     LockedRows* held;
     int row;
@@ -184,15 +250,9 @@ void Couplings::settle(Group& group, Aim aim) {
       }
     }
   }
-  // Rows are scaled alike, and those that can move nothing are left out, as Bullet does.
-  const Eigen::VectorXd scale = A.diagonal().unaryExpr(
-      [](double mobility) { return mobility > kLeastMobility ? 1 / std::sqrt(mobility) : 0; });
-  A = scale.asDiagonal() * A * scale.asDiagonal();
-  for (Eigen::Index i = 0; i < count; ++i)
-    if (scale[i] == 0) A(i, i) = 1;
-  // Rows of pins may depend on each other: what they agree on remains right.
-  if (group.hasPins) A.diagonal().array() += kLeastShare;
-  const Eigen::VectorXd impulses = scale.cwiseProduct(A.llt().solve(scale.cwiseProduct(missing)));
+  const Eigen::VectorXd scale = scaleOf(A);
+  const Eigen::VectorXd impulses =
+      scale.cwiseProduct(scaled(A, scale, group.hasPins).llt().solve(scale.cwiseProduct(missing)));
   for (Eigen::Index i = 0; i < count; ++i)
     for (std::size_t k = 0; k < bodies; ++k)
       group.bodies[k]->applyDeltaVeeMultiDof(answers_[static_cast<std::size_t>(i) * bodies + k].data(),
