@@ -117,6 +117,7 @@ class ContactFreeMotion {
   [[nodiscard]] bool onlyForcesAct(const State& state, double h) const;
   void findMobility(const State& state);
   void stepFreely(State& state, double h, int count);
+  bool stepWithGoals(State& state, double h, int count);
   bool stepWithGoals(State& state, double h);
 
   const Model* model_;

@@ -214,6 +214,47 @@ TEST(PhysicsDynamics, JointsAreDrivenAndHeldAsInBullet) {
   EXPECT_GT(worst, 0);  // or Bullet would have moved both
 }
 
+// A triple pendulum of blades 3 mm apart: nothing touches, but what is so near counts as if it could.
+// Bullet's own motion would gain and lose 4 % of the energy in steps of a millisecond. With `isStopped`, the
+// last joint is thrown from limit to limit, where it may only lose energy.
+TEST(PhysicsDynamics, KeepsTheEnergyOfWhatIsNear) {
+  for (const bool isStopped : {false, true}) {
+    SceneSpec spec;
+    for (int i = 0; i < 3; ++i) {
+      const std::string name(1, static_cast<char>('a' + i));
+      JointSpec& joint = addHinged(spec, name, 1, 0.01);
+      if (i > 0) joint.parent = std::string(1, static_cast<char>('a' + i - 1));
+      joint.X_PF = translation(0, i == 0 ? 0 : 0.003, i == 0 ? 0 : -0.2);
+      joint.X_MC = translation(0, 0, -0.2);
+      ShapeSpec& blade = spec.bodies.back().shapes.emplace_back();
+      blade.shape = boxShape(0.05, 0.002, 0.4);
+      blade.contact = true;
+    }
+    if (isStopped) spec.joints[2].lower = spec.joints[2].upper = Eigen::VectorXd::Zero(1);
+    if (isStopped) spec.joints[2].lower[0] = -0.3, spec.joints[2].upper[0] = 0.3;
+    const Model model = compile(spec);
+    PhysicsWorld world(model);
+    const State start{Eigen::Vector3d(2.5, 0.2, -0.2), Eigen::Vector3d::Zero()};
+    world.setState(start);
+    const double before = energy(model, start.q, start.v).total();
+    double least = before, most = before, rise = 0, kinetic = 0;
+    for (int i = 0; i < 3000; ++i) {
+      world.step(1e-3);
+      ASSERT_TRUE(world.contacts().empty());
+      const State now = world.state();
+      const Energy at = energy(model, now.q, now.v);
+      kinetic = std::max(kinetic, at.kinetic);
+      least = std::min(least, at.total());
+      most = std::max(most, at.total());
+      rise = std::max(rise, at.total() - least);
+    }
+    EXPECT_LT(rise, (isStopped ? 3e-3 : 1e-3) * kinetic);
+    if (!isStopped) {
+      EXPECT_LT(most - least, 1e-3 * kinetic);
+    }
+  }
+}
+
 // A pendulum falls to the ground, on its own dynamics at first, then on Bullet's: no jump between them, and
 // the same contact as with a body elsewhere, when all is Bullet's.
 TEST(PhysicsDynamics, HandsOverWhatTouches) {
