@@ -10,6 +10,8 @@ namespace {
 
 // The share of its mobility below which a row can move nothing.
 constexpr double kLeastLeft = 1e-9;
+// Less than this share of what a row meets counts as that: nothing.
+constexpr double kLeastOfMet = 1e-12;
 
 using Velocities = Eigen::Map<Eigen::VectorXd>;
 
@@ -24,6 +26,8 @@ Armature::Armature(btMultiBody& body, int rows)
       Jt_(Eigen::MatrixXd::Zero(velocityCount(body), rows)),
       G_(Jt_),
       inertia_(Eigen::VectorXd::Zero(rows)),
+      resistance_(inertia_),
+      met_(inertia_),
       drift_(inertia_),
       llt_(rows) {
   body.setUserPointer(this);
@@ -46,9 +50,13 @@ void Armature::slowDown() {
   for (Eigen::Index i = 0; i < Jt_.cols(); ++i)
     body_.calcAccelerationDeltasMultiDof(Jt_.col(i).data(), G_.col(i).data(), scratchR_, scratchV_);
   Eigen::MatrixXd K = Jt_.transpose() * G_;
-  K.diagonal() += inertia_.cwiseInverse();
+  met_ = K.diagonal().cwiseInverse();
+  const Eigen::VectorXd all = (inertia_ + resistance_).cwiseMax(kLeastOfMet * met_);
+  K.diagonal() += all.cwiseInverse();
   llt_.compute(K);
-  const Eigen::VectorXd faster = Jt_.transpose() * (velocitiesOf(body_) - before_) + drift_;
+  // What has inertia keeps its velocity, and what resists wants none.
+  const Eigen::VectorXd kept = inertia_.cwiseQuotient(all).cwiseProduct(Jt_.transpose() * before_ - drift_);
+  const Eigen::VectorXd faster = Jt_.transpose() * velocitiesOf(body_) - kept;
   const Eigen::VectorXd change = -G_ * llt_.solve(faster);
   body_.applyDeltaVeeMultiDof(change.data(), 1);
 }

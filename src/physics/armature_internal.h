@@ -7,15 +7,23 @@
 
 namespace rex::internal {
 
-/// What armatures add to the inertia M of a multibody, which knows of none: J^T A J, where each row of J
-/// takes the velocities of the body in Bullet to one that has an armature. By Woodbury's formula, (M + J^T A
-/// J)^-1 f = y - G (A^-1 + J G)^-1 J y with y = M^-1 f and G = M^-1 J^T.
+/// What armatures add to the inertia M of a multibody, which knows of none, J^T A J, and what springs too
+/// stiff for the step resist, J^T S J, where each row of J takes the velocities of the body in Bullet to one
+/// that has an armature or a spring. By Woodbury's formula, (M + J^T (A + S) J)^-1 f = y - G ((A + S)^-1 + J
+/// G)^-1 J y with y = M^-1 f and G = M^-1 J^T. As rows of Bullet's solver, stiff springs of several joints
+/// would need more iterations than a step has.
 class Armature {
  public:
   /// For so many rows. The body finds it by its user pointer, and must not outlive it.
   Armature(btMultiBody& body, int rows);
 
   void setInertia(int row, double inertia) { inertia_[row] = inertia; }
+  /// What the row resists in the next step: the impulse per unit of its velocity at the end.
+  void setResistance(int row, double resistance) { resistance_[row] = resistance; }
+  /// The inertia that the row met in the last step, without armature: kg m^2 or kg; 0 in the first.
+  [[nodiscard]] double met(int row) const { return met_[row]; }
+  /// Forgets the last step.
+  void forget() { met_.setZero(); }
   /// The row is Bullet's velocity of that index.
   void measure(int row, int velocity) { Jt_(velocity, row) = 1; }
   /// The row is angular * omega + linear * v, of the origin of the base; while Bullet's velocities stay the
@@ -37,7 +45,7 @@ class Armature {
  private:
   btMultiBody& body_;
   Eigen::MatrixXd Jt_, G_;
-  Eigen::VectorXd inertia_, drift_, before_;
+  Eigen::VectorXd inertia_, resistance_, met_, drift_, before_;
   Eigen::LLT<Eigen::MatrixXd> llt_;
   bool isBegun_ = false;
   btAlignedObjectArray<btScalar> scratchR_;

@@ -42,7 +42,6 @@ void JointRow::measureBase(const btVector3& angular, const btVector3& linear) {
 
 void JointRow::forget() {
   setGoals({});
-  inertia_ = 0;
   for (int i = 0; i < kJointPurposes; ++i) internalSetAppliedImpulse(i, 0);
 }
 
@@ -62,7 +61,6 @@ void JointRow::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBod
     row.m_orgDofIndex = i;
     fillMultiBodyConstraint(row, data, jacobianA(0), jacobianB(0), none, none, none, none, 0, info,
                             goal.lowest, goal.highest, false, 1, false, goal.velocity);
-    if (i == kDamping) inertia_ = row.m_jacDiagABInv;
     const double stiffened = 1 / (1 + goal.softness * row.m_jacDiagABInv);
     row.m_rhs *= stiffened;
     row.m_jacDiagABInv *= stiffened;
@@ -220,17 +218,21 @@ void Articulation::addRows() {
 }
 
 void Articulation::addArmature() {
-  std::vector<std::pair<int, double>> all(baseLaw_.armature > 0 ? kBaseVelocities : 0,
-                                          {0, baseLaw_.armature});
-  for (const Coordinate& one : coordinates_)
-    for (int place = 0; place < (one.isBall ? 3 : 1) && one.law.armature > 0; ++place)
+  const auto counts = [](const JointLaw& law) { return law.armature > 0 || law.stiffness > 0; };
+  std::vector<std::pair<int, double>> all(counts(baseLaw_) ? kBaseVelocities : 0, {0, baseLaw_.armature});
+  const std::size_t ofBase = all.size();
+  for (Coordinate& one : coordinates_) {
+    if (!counts(one.law)) continue;
+    one.armatureRow = static_cast<int>(all.size());
+    for (int place = 0; place < (one.isBall ? 3 : 1); ++place)
       all.emplace_back(kBaseVelocities + body_->getLink(one.link).m_dofOffset + place, one.law.armature);
+  }
   if (all.empty()) return;
   armature_.emplace(*body_, static_cast<int>(all.size()));
   for (std::size_t i = 0; i < all.size(); ++i) {
     const int row = static_cast<int>(i);
     armature_->setInertia(row, all[i].second);
-    if (baseLaw_.armature == 0 || row >= kBaseVelocities) armature_->measure(row, all[i].first);
+    if (i >= ofBase) armature_->measure(row, all[i].first);
   }
 }
 
@@ -331,11 +333,14 @@ void Articulation::driveBase(std::span<const Motor> motors, double h) {
     const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i % 3), zero = Eigen::Vector3d::Zero();
     const Eigen::Vector3d angular = isLinear ? arm.cross(axis) : axis, linear = isLinear ? axis : zero;
     row.measureBase(toBullet(angular), toBullet(linear));
-    if (baseLaw_.armature > 0) armature_->measureBase(i, angular, linear, isLinear ? drift.dot(axis) : 0);
+    JointPlace at;
+    if (baseLaw_.armature > 0 || baseLaw_.stiffness > 0) {
+      armature_->measureBase(i, angular, linear, isLinear ? drift.dot(axis) : 0);
+      at.inertia = armature_->met(i) + baseLaw_.armature;
+    }
     JointGoals goals;
-    goals[kDamping] =
-        jointGoals(baseLaw_, Motor{}, {.inertia = row.inertia() + baseLaw_.armature}, h)[kDamping];
-    row.setGoals(goals);
+    goals[kDamping] = jointGoals(baseLaw_, Motor{}, at, h)[kDamping];
+    row.setGoals(withoutSpring(baseLaw_, goals, i));
   }
 }
 
@@ -354,10 +359,18 @@ void Articulation::pull(const Coordinate& one, int place, const Motor& motor, do
                 .v = body_->getJointVelMultiDof(one.link)[place]};
   if (one.law.stiffness > 0) {
     at.stretch = stretchOf(one, place);
-    at.inertia = row.inertia() + one.law.armature;
+    at.inertia = armature_->met(one.armatureRow + place) + one.law.armature;
     body_->addJointTorqueMultiDof(one.link, place, springImpulse(one.law, at.stretch, h) / h);
   }
-  row.setGoals(jointGoals(one.law, motor, at, h));
+  row.setGoals(withoutSpring(one.law, jointGoals(one.law, motor, at, h), one.armatureRow + place));
+}
+
+// What damps a stiff spring is left to the armature.
+JointGoals Articulation::withoutSpring(const JointLaw& law, JointGoals goals, int armatureRow) {
+  if (law.stiffness == 0) return goals;
+  armature_->setResistance(armatureRow, goals[kDamping] ? 1 / goals[kDamping]->softness : 0);
+  goals[kDamping].reset();
+  return goals;
 }
 
 FreeMotion::LinkMotion Articulation::baseMotion() const {
@@ -376,6 +389,7 @@ void Articulation::update() {
   body_->clearForcesAndTorques();
   body_->clearConstraintForces();
   for (const auto& row : rows_) row->forget();
+  if (armature_) armature_->forget();
   body_->forwardKinematics(rotations_, origins_);
   body_->updateCollisionObjectWorldTransforms(rotations_, origins_);
   body_->updateCollisionObjectInterpolationWorldTransforms(rotations_, origins_);

@@ -29,11 +29,8 @@ class JointRow : public btMultiBodyConstraint {
   void measureBase(const btVector3& angular, const btVector3& linear);
 
   void setGoals(const JointGoals& goals) { goals_ = goals; }
-  /// Forgets the goals and what is known of the last step: the impulses, from which the solver starts
-  /// otherwise, and the inertia.
+  /// Forgets the goals and the impulses of the last step, from which the solver starts otherwise.
   void forget();
-  /// That the velocity met in the last step, without armature: kg m^2 or kg; 0 in the first.
-  [[nodiscard]] double inertia() const { return inertia_; }
 
   void finalizeMultiDof() override;
   int getIslandIdA() const override;
@@ -44,7 +41,6 @@ class JointRow : public btMultiBodyConstraint {
 
  private:
   int place_ = 0;
-  double inertia_ = 0;
   JointGoals goals_;
 };
 
@@ -104,6 +100,7 @@ class Articulation : public SimulatedTree {
     double ratio = 1, offset = 0;
     JointId joint = kNoJoint;
     JointLaw law{};
+    int armatureRow = -1;                                  // the first one, if it has an armature or a spring
     double rest = 0;                                       // of the spring
     Eigen::Matrix3d R_rest = Eigen::Matrix3d::Identity();  // of balls
   };
@@ -125,6 +122,7 @@ class Articulation : public SimulatedTree {
   void addRows();
   void addArmature();
   void pull(const Coordinate& one, int place, const Motor& motor, double h, JointRow& row);
+  [[nodiscard]] JointGoals withoutSpring(const JointLaw& law, JointGoals goals, int armatureRow);
   [[nodiscard]] double stretchOf(const Coordinate& one, int place) const;
   void driveBase(std::span<const Motor> motors, double h);
   [[nodiscard]] FreeMotion::LinkMotion baseMotion() const;

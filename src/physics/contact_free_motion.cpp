@@ -18,15 +18,10 @@ constexpr double kLimitRate = 20, kLimitSpeed = 1;
 // stiffness * h^2 is below four times the inertia; springs of several joints may add up. So what exceeds half
 // of the inertia is felt at the end of the step instead, which damps at any stiffness.
 constexpr double kSpringShare = 0.5;
-// Tells Bullet's row to be there, and so what inertia it meets.
-constexpr double kLeastSlope = 1e-9;
 
 // How much less the impulse is per unit of the new velocity.
 double slopeOf(const JointLaw& law, const JointPlace& at, double h) {
-  const double slope = law.damping * h;
-  if (law.stiffness == 0) return slope;
-  const double spring = law.stiffness * h * h;
-  return slope + std::max(spring - kSpringShare * at.inertia, kLeastSlope * spring);
+  return law.damping * h + std::max(law.stiffness * h * h - kSpringShare * at.inertia, 0.0);
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ SceneSpec randomTree(Rng& rng, int bodies, bool isFree) {
   return spec;
 }
 
-// How far apart Bullet and semi-implicit Euler are after `count` steps, relative to the change of v.
+// How far apart Bullet and semi-implicit Euler are after `count` steps, relative to the change of v; of first
+// order in the step.
 double apart(const Model& model, const State& start, int count, double h) {
   PhysicsWorld world(model);
   world.setState(start);
@@ -58,7 +59,7 @@ TEST(PassiveJoints, HaveArmaturesInBullet) {
       SceneSpec spec = randomTree(rng, 3 + i, i % 2 == 0);
       for (JointSpec& joint : spec.joints) joint.armature = armature * rng.uniform(0.5, 1);
       const Model model = compile(spec);
-      EXPECT_LT(apart(model, randomStart(rng, model), 50, 1e-3), 1e-3) << armature << ", tree " << i;
+      EXPECT_LT(apart(model, randomStart(rng, model), 100, 5e-4), 1e-3) << armature << ", tree " << i;
     }
   }
 }
@@ -86,7 +87,7 @@ TEST(PassiveJoints, HoldFreeBodies) {
   joint.X_PF = randomPose(rng), joint.X_MC = randomPose(rng);
   joint.armature = 0.7, joint.stiffness = 30;
   const Model model = compile(spec);
-  EXPECT_LT(apart(model, randomStart(rng, model), 100, 1e-3), 2e-3);
+  EXPECT_LT(apart(model, randomStart(rng, model), 200, 5e-4), 2e-3);
 }
 
 TEST(PassiveJoints, CarryBuoyantBodiesInBullet) {
