@@ -18,6 +18,11 @@ std::uint64_t splitmix64(std::uint64_t& x) {
   return z ^ (z >> 31);
 }
 
+void requireSize(int size) {
+  if (size < 0)
+    throw Error({.what = "random vector", .found = fmt::format("size {}", size), .wanted = "0 or more"});
+}
+
 }  // namespace
 
 Rng::Rng(std::uint64_t seed) {
@@ -78,12 +83,14 @@ double Rng::normal() {
 }
 
 Eigen::VectorXd Rng::normalVector(int size) {
+  requireSize(size);
   Eigen::VectorXd values(size);
   for (double& value : values) value = normal();
   return values;
 }
 
 Eigen::VectorXd Rng::uniformVector(int size, double low, double high) {
+  requireSize(size);
   Eigen::VectorXd values(size);
   for (double& value : values) value = uniform(low, high);
   return values;

@@ -24,9 +24,9 @@ class Rng {
   int index(int count);
   /// Standard normal, by the polar method (Marsaglia).
   double normal();
-  /// `size` independent standard normals.
+  /// `size` independent standard normals. Throws Error if the size is negative.
   Eigen::VectorXd normalVector(int size);
-  /// `size` independent uniforms in [low, high). Throws as uniform(low, high).
+  /// `size` independent uniforms in [low, high). Throws as uniform(low, high) and normalVector().
   Eigen::VectorXd uniformVector(int size, double low, double high);
   /// An independent generator for a named part of an experiment: the same (state, stream) gives the same
   /// child.

@@ -57,6 +57,13 @@ std::string encodeSvg(const Figure& figure) { return drawFigure(figure, "svg", f
 
 namespace rex::internal {
 
+void requirePlanePoint(Eigen::Index numbers) {
+  if (numbers >= 2) return;
+  throw Error({.what = "points of a figure",
+               .found = numbers == 1 ? "one number for each" : "points without numbers",
+               .wanted = "two or more, such as the columns of a 2 x n matrix"});
+}
+
 std::string encodeSvg(const Figure& figure, const std::string& commands) {
   return drawFigure(figure, "svg", figure.title, commands);
 }

@@ -175,10 +175,16 @@ struct Figure {
 
 namespace internal {
 
+// Throws Error unless a point has two numbers or more.
+void requirePlanePoint(Eigen::Index numbers);
+
 // Adds the first two entries of each element of a list, or of each column of a matrix.
 template <class Layer, class Points>
 [[nodiscard]] Layer withPoints(Layer layer, const Points& points) {
-  const auto add = [&](const auto& point) { layer.add(point[0], point[1]); };
+  const auto add = [&](const auto& point) {
+    if constexpr (requires { point.size(); }) requirePlanePoint(static_cast<Eigen::Index>(point.size()));
+    layer.add(point[0], point[1]);
+  };
   if constexpr (requires { points.colwise(); })
     for (const auto& point : points.colwise()) add(point);
   else
@@ -189,7 +195,8 @@ template <class Layer, class Points>
 }  // namespace internal
 
 /// A curve through points in the plane, or through the positions of poses (x, y, heading): the columns of a
-/// matrix, a list of vectors, or one vector. `curve` says how it looks, and may have points already.
+/// matrix, a list of vectors, or one vector. `curve` says how it looks, and may have points already. Throws
+/// Error for points with fewer than two numbers, as the next two do.
 template <class Points>
 [[nodiscard]] Series through(const Points& points, Series curve = {}) {
   return internal::withPoints(std::move(curve), points);

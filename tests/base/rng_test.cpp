@@ -86,6 +86,9 @@ TEST(Rng, RefusesImpossibleRanges) {
   Rng rng(6);
   EXPECT_REX_ERROR(rng.uniform(1, 0), "uniform random number: found the range [1, 0), wanted finite bounds");
   EXPECT_REX_ERROR(rng.uniform(0, std::nan("")), "found the range [0, nan)");
+  EXPECT_REX_ERROR(rng.normalVector(-1), "random vector: found size -1, wanted 0 or more");
+  EXPECT_REX_ERROR(rng.uniformVector(-2, 0, 1), "random vector: found size -2, wanted 0 or more");
+  EXPECT_EQ(rng.normalVector(0).size(), 0);
   EXPECT_REX_ERROR(rng.index(0), "random index: found count 0, wanted count > 0");
   EXPECT_REX_ERROR(Rng::fromState({0, 0, 0, 0}), "random generator state: found all zeros");
 }

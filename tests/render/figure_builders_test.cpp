@@ -109,6 +109,15 @@ TEST(PoleFigure, RejectsWhatHasNoPlace) {
                    "zeros: imaginary parts: number 1: found nan");
 }
 
+TEST(PointsOfAFigure, HaveTwoNumbers) {
+  const std::string wanted = ", wanted two or more, such as the columns of a 2 x n matrix";
+  const Eigen::MatrixXd row = Eigen::MatrixXd::Ones(1, 5);
+  EXPECT_REX_ERROR(static_cast<void>(through(row)), "points of a figure: found one number for each" + wanted);
+  EXPECT_REX_ERROR(static_cast<void>(dots(row)), "points of a figure: found one number for each" + wanted);
+  EXPECT_REX_ERROR(static_cast<void>(within(std::vector<Eigen::VectorXd>(1))),
+                   "points of a figure: found points without numbers" + wanted);
+}
+
 // Lists of vectors, the columns of a matrix, and one vector are the same points.
 TEST(PointsOfAFigure, AreTheFirstTwoNumbers) {
   using Numbers = std::vector<double>;
