@@ -316,11 +316,12 @@ void showResult(const std::vector<double>& values, const std::vector<Eigen::Vect
     for (const ContractParameter& parameter : function.parameters)
       parameters.push_back(fmt::format("{} {}", parameter.type, parameter.name));
     const std::string zero = zeroOf(plainType(function.result));
+    // The scan for leaks would take a line that both the solution and the stub have for one.
     return fmt::format(
-        "{} {}({}) {{\n  // <solution {}>\n  return {};  // instead of this, the solution\n"
-        "  // <todo>\n{}  //| return {};\n  // </solution>\n}}\n",
-        function.result, function.name, join(parameters, ", "), function.name, zero,
-        wrapped("TODO: " + function.comment, "  //| // "), zero);
+        "{} {}({}) {{\n  // <solution {}>\n  {} missing = {};  // instead of this, the solution\n"
+        "  return missing;\n  // <todo>\n{}  //| return {};\n  // </solution>\n}}\n",
+        function.result, function.name, join(parameters, ", "), function.name, plainType(function.result),
+        zero, wrapped("TODO: " + function.comment, "  //| // "), zero);
   }
 
   Contract contract_;

@@ -100,7 +100,8 @@ TEST(Contract, SaysWhatItCannotReadAndWhatItWouldRead) {
 
 bool isInline(const std::string& header, const std::string& function) {
   for (const std::string_view line : splitLines(header))
-    if (line.starts_with("inline") && line.substr(0, line.find('(')).ends_with(" " + function)) return true;
+    if (line.starts_with("inline") && line.substr(0, line.find_first_of("(;")).ends_with(" " + function))
+      return true;
   return false;
 }
 

@@ -10,7 +10,8 @@
 
 Eigen::Vector2d turned(const Eigen::Vector2d& p, double angle) {
   // <solution turned>
-  return Eigen::Vector2d::Zero();  // instead of this, the solution
+  Eigen::Vector2d missing = Eigen::Vector2d::Zero();  // instead of this, the solution
+  return missing;
   // <todo>
   //| // TODO: The point p [m] turned about the origin by `angle` [rad], counter-clockwise: the x
   //| // axis turned by a quarter is the y axis.
@@ -20,7 +21,8 @@ Eigen::Vector2d turned(const Eigen::Vector2d& p, double angle) {
 
 Eigen::VectorXd angles(const std::vector<Eigen::Vector2d>& points, int count) {
   // <solution angles>
-  return {};  // instead of this, the solution
+  Eigen::VectorXd missing = {};  // instead of this, the solution
+  return missing;
   // <todo>
   //| // TODO: The point p [m] turned about the origin by `angle` [rad], counter-clockwise: the x
   //| // axis turned by a quarter is the y axis.
@@ -30,7 +32,8 @@ Eigen::VectorXd angles(const std::vector<Eigen::Vector2d>& points, int count) {
 
 bool isStill(const Body& body, int k, double wanted) {
   // <solution isStill>
-  return false;  // instead of this, the solution
+  bool missing = false;  // instead of this, the solution
+  return missing;
   // <todo>
   //| // TODO: Whether the body stays where it is for so many steps.
   //| return false;
@@ -41,7 +44,8 @@ bool isStill(const Body& body, int k, double wanted) {
 
 rex::Pose posed(const rex::Pose& start, rex::Rng& rng) {
   // <solution posed>
-  return {};  // instead of this, the solution
+  rex::Pose missing = {};  // instead of this, the solution
+  return missing;
   // <todo>
   //| // TODO: The pose after a random step.
   //| return {};
@@ -50,7 +54,8 @@ rex::Pose posed(const rex::Pose& start, rex::Rng& rng) {
 
 std::vector<Eigen::VectorXd> longest(rex::Simulator& S, const Eigen::MatrixXd& A) {
   // <solution longest>
-  return {};  // instead of this, the solution
+  std::vector<Eigen::VectorXd> missing = {};  // instead of this, the solution
+  return missing;
   // <todo>
   //| // TODO: The longest motions of the hand of S.
   //| return {};
