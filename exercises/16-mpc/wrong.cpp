@@ -326,7 +326,7 @@ return {((limits.qMin - q) * tau).cwiseMax(least).cwiseMin(most),
 
 // <variant limit_for_a_distance> caught by: rate-bounds, rates, line, more-hands
 // mistake: leaves out where the joints are.
-// ask: Is q left out? Only what is left up to the limit counts.
+// ask: Are the limits of q forgotten, or where q is? Only what is left up to the limit counts.
 // <solution rateBounds>
 const Eigen::VectorXd &most = limits.rateMax, least = -most;
 return {(limits.qMin / tau).cwiseMax(least).cwiseMin(most),
@@ -340,7 +340,7 @@ return {(limits.qMin - q) / tau, (limits.qMax - q) / tau};
 
 // <variant only_speeds> caught by: rate-bounds, rates, line, more-hands
 // mistake: forgets that joints have limits.
-// ask: Are the limits of the joints forgotten?
+// ask: Are the limits of q forgotten, or where q is? Only what is left up to the limit counts.
 // <solution rateBounds>
 return {-limits.rateMax, limits.rateMax};
 
