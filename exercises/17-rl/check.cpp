@@ -254,11 +254,11 @@ void checkAggregated(Check& check, Student& student, int states, int actions, in
   const Eigen::MatrixXd got = student.aggregated(lessons, states, actions, rounds, visited, taught);
   check.near("rounds in which a clone acts", static_cast<double>(acted.size()), rounds, 0);
   acted.push_back(got);
-  std::vector<Lesson> all = lessons;
+  std::vector<Lesson> learnt = lessons;
   Eigen::MatrixXd before = cloneOf(lessons, states, actions);
   for (std::size_t r = 0; r < acted.size(); ++r) {
     const bool isLast = r + 1 == acted.size();
-    const Eigen::MatrixXd wanted = cloneOf(all, states, actions);
+    const Eigen::MatrixXd wanted = cloneOf(learnt, states, actions);
     const std::string property =
         isLast ? "policy of aggregated" : fmt::format("policy that acts in round {}", r + 1);
     check.shape(property, acted[r], states, actions);
@@ -269,7 +269,7 @@ void checkAggregated(Check& check, Student& student, int states, int actions, in
     check.near(property, acted[r], wanted, 1e-9);
     if (isLast) break;
     before = wanted;
-    for (const int s : visits[r]) all.push_back({s, taught(s)});
+    for (const int s : visits[r]) learnt.push_back({s, taught(s)});
   }
 }
 
@@ -325,8 +325,8 @@ void checkShare(Check& check, Student& student, const Eigen::VectorXd& teacher, 
                 const Eigen::VectorXd& candidate) {
   check.input("three points", {{"teacher", teacher}, {"mixed", mixed}, {"candidate", candidate}});
   const double got = student.nearestShare(teacher, mixed, candidate);
-  const Eigen::VectorXd way = candidate - mixed;
-  const double free = way.dot(teacher - mixed) / std::max(1e-300, way.squaredNorm());
+  const Eigen::VectorXd step = candidate - mixed;
+  const double free = step.dot(teacher - mixed) / std::max(1e-300, step.squaredNorm());
   check.near("nearest share", got, std::clamp(free, 0., 1.), 1e-9);
 }
 

@@ -25,6 +25,9 @@ class WrongVariantsTest : public TemplateExercise {
   void SetUp() override {
     fs::remove(exercise() / "seen.txt");
     const std::string wrong = fileText(exercise() / "wrong.cpp");
+    std::string description = fileText(exercise() / "exercise.toml");
+    description.replace(description.find("\"private\""), 9, "\"public\"");
+    write("exercise.toml", description);
     write("wrong.cpp", wrong.substr(0, wrong.find("// <variant library>")));
     write("solution.cpp", "#include \"geometry/rotation.h\"\n" + fileText(exercise() / "solution.cpp"));
     writeVariant("library", "caught by: forbidden-call", kByLibrary);

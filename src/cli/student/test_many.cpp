@@ -110,7 +110,7 @@ class TestMany {
         fmt::format("{} of {} exercises in full, {} of {} points", full, all.size(), points, maxPoints);
     if (refused > 0) line += fmt::format("; {} cannot be graded", refused);
     if (faults > 0) line += fmt::format("; {} hit a grader fault", faults);
-    if (isFirst_) say(aboutWork() + "\n");
+    if (isFirst_) note(aboutWork());
     say(paint(full == static_cast<int>(all.size()) ? Colour::kGreen : Colour::kBold, line));
   }
 

@@ -239,11 +239,10 @@ ExitCode testOne(const Project& project, const TestOptions& options) {
   const Published published = run.publish(project, graded.result);
   if (options.json) {
     std::fputs(readTextFile(run.ownResults()).c_str(), stdout);
-    if (published.isFirstWork) note(aboutWork());
   } else {
     run.print(graded, published);
-    if (published.isFirstWork) say(aboutWork());
   }
+  if (published.isFirstWork) note(aboutWork());
   return toExitCode(graded.result);
 }
 

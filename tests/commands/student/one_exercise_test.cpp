@@ -289,9 +289,9 @@ TEST_F(OneExercise, SaysOnceThatItNotesTheWork) {
       "and when its parts first pass. That stays on this machine unless you hand it in "
       "with rex submit --progress.");
   write(exercise() / "main.cpp", kGood);
-  EXPECT_THAT(flat(rex({"test", "98", "--main", exercise() / "main.cpp"}).output), Not(tells)) << "not noted";
-  EXPECT_THAT(flat(rex({"test", "98", "--check", "quarter-turn"}).output), tells);
-  EXPECT_THAT(flat(rex({"test", "98"}).output), Not(tells));
+  EXPECT_THAT(flat(rex({"test", "98", "--main", exercise() / "main.cpp"}).error), Not(tells)) << "not noted";
+  EXPECT_THAT(flat(rex({"test", "98", "--check", "quarter-turn"}).error), tells);
+  EXPECT_THAT(flat(rex({"test", "98"}).error), Not(tells));
   EXPECT_THAT(fileText(root() / ".rex" / "progress.json"), HasSubstr("\"first_passed\""));
   fs::remove_all(root() / ".rex");
   EXPECT_THAT(flat(rex({"test", "98", "--json"}).error), tells);
