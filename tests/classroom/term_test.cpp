@@ -88,24 +88,24 @@ class TermTest : public ::testing::Test {
   GradebookSource source_;
 };
 
-// 14 exercises without bonus have 251 points in the parts that count: ten of 20, three of 13, one of 12. Who
-// has equal shares of all leaves out two of 20 points, so that 211 are possible.
+// 14 exercises without bonus have 250 points in the parts that count: ten of 20, two of 13, two of 12. Who
+// has equal shares of all leaves out two of 20 points, so that 210 are possible.
 TEST_F(TermTest, AddsUpAsByHand) {
   playTheTerm();
   const Gradebook book = makeGradebook(readClassRun(run_.tasks, run_.out), source_);
   EXPECT_EQ(book.totals.size(), 30u);
   EXPECT_THAT(book.notes, IsEmpty());
-  EXPECT_EQ(total(book, 1).total, 35100) << "211, and seven exercises of 20 on top";
-  EXPECT_EQ(total(book, 1).possible, 21100);
+  EXPECT_EQ(total(book, 1).total, 35000) << "210, and seven exercises of 20 on top";
+  EXPECT_EQ(total(book, 1).possible, 21000);
   EXPECT_THAT(total(book, 1).leftOut, ElementsAre("08-mdp", "09-racer"));
-  EXPECT_EQ(total(book, 2).total, 21100) << "the voluntary parts are worth nothing";
-  EXPECT_EQ(total(book, 3).total, 21800) << "251 without 05 of 20 points and 15 of 13 points";
-  EXPECT_EQ(total(book, 3).possible, 21800);
+  EXPECT_EQ(total(book, 2).total, 21000) << "the voluntary parts are worth nothing";
+  EXPECT_EQ(total(book, 3).total, 21700) << "250 without 05 of 20 points and 15 of 13 points";
+  EXPECT_EQ(total(book, 3).possible, 21700);
   EXPECT_THAT(total(book, 3).leftOut, ElementsAre("05-car", "15-graphSLAM"));
-  EXPECT_EQ(total(book, 4).total, 15300) << "00, 00b and 01 to 06";
-  EXPECT_EQ(total(book, 4).possible, 21100) << "of six that are missing, two of 20 points are left out";
+  EXPECT_EQ(total(book, 4).total, 15200) << "00, 00b and 01 to 06";
+  EXPECT_EQ(total(book, 4).possible, 21000) << "of six that are missing, two of 20 points are left out";
   EXPECT_THAT(total(book, 4).why, ElementsAre("the minimum is reached in 8 of 10 exercises"));
-  EXPECT_EQ(total(book, 5).total, 18990) << "a day late everywhere: 90 % of 211";
+  EXPECT_EQ(total(book, 5).total, 18900) << "a day late everywhere: 90 % of 210";
   for (const int k : {1, 2, 3, 5}) EXPECT_TRUE(total(book, k).passes.value()) << k;
 }
 
@@ -114,7 +114,7 @@ TEST_F(TermTest, GivesPlatformsAndStatisticsThePartsThatCount) {
   const Gradebook book = makeGradebook(readClassRun(run_.tasks, run_.out), source_);
   EXPECT_THAT(
       canvasGrades(book).csv,
-      HasSubstr("\n    Points Possible,,,,,20,13,20,20,20,20,20,20,20,0,20,20,12,13,0,0,0,13,0,0,0\n"));
+      HasSubstr("\n    Points Possible,,,,,20,12,20,20,20,20,20,20,20,0,20,20,12,13,0,0,0,13,0,0,0\n"));
   EXPECT_THAT(gradescopeGrades(book).notes, IsEmpty());
   const auto statistics = exerciseStatistics(resultsByPerson(readClassResults(run_.out), book).results);
   for (const ExerciseStatistics& one : statistics) {
