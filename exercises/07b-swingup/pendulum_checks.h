@@ -85,9 +85,18 @@ inline void interpolates(rex::grading::Check& check, Student& student, Place pla
   const auto turns = check.ask("Have whole turns been added to the angle?", isTurned);
   const Eigen::Vector2d nearest(std::round((inside[0] + kPi) / turn) * turn - kPi,
                                 std::round((x[1] + grid.fastest) / apart) * apart - grid.fastest);
-  check.near("V of valueAt", student.valueAt(grid, V, x), wanted, 1e-9,
-             {{"Is it the value at the node below? Between nodes V is bilinear.", V(i, j)},
-              {"Is only the rate interpolated?", hatSum(grid, V, {i * turn - kPi, x[1]})}});
+  check.near(
+      "V of valueAt", student.valueAt(grid, V, x), wanted, 1e-9,
+      {{"Is it the value at the nearest node? Between nodes V is bilinear.", hatSum(grid, V, nearest)},
+       {"Is it the value at the node below? Between nodes V is bilinear.", V(i, j)},
+       {"Are the angles counted from 0? The first node is at -pi.", hatSum(grid, V, {x[0] + kPi, x[1]})},
+       {"Is the first node missing, which follows the last?",
+        isLast ? hatSum(grid, V, {i * turn - kPi, x[1]}) : wanted},
+       {"Is only the angle interpolated?", hatSum(grid, V, {x[0], j * apart - grid.fastest})},
+       {"Is only the rate interpolated?", hatSum(grid, V, {i * turn - kPi, x[1]})},
+       {"Are the shares of the cell exchanged? The nearer node counts more.",
+        hatSum(grid, V,
+               {(2 * i + 1) * turn - 2 * kPi - inside[0], (2 * j + 1) * apart - 2 * grid.fastest - x[1]})}});
 }
 
 /// What a torque leads to, from its cost per second and the value after the step.
@@ -224,6 +233,11 @@ inline void choosesTorques(rex::grading::Check& check, Student& student) {
              {{perSecond == 0 ? "Is the cost not multiplied by tau, or is what comes after the step left out?"
                               : "Is it the torque that costs least at once? Most of the cost comes after.",
                0},
+              {"Is the cost not multiplied by tau? costOf() is per second.", perSecond},
+              {"Is it the number of the torque?", best},
+              {"Is it the least value, not the torque that leads to it?", all[best]},
+              {"Is the cost of the step left out?", at([](double, double v) { return v; })},
+              {"Is nothing discounted?", at([tau = d.tau](double c, double v) { return tau * c + v; })},
               {"Is it the torque that leads to the most?", torqueOf(d, most)}});
 }
 
@@ -266,8 +280,14 @@ inline void hasEnergy(rex::grading::Check& check, Student& student, const Pendul
   const double E = workOf(p, x), weight = p.mass * p.g * p.length, height = weight * (std::cos(x[0]) - 1),
                kinetic = E - height;
   check.near("energy of energyOf", student.energyOf(p, x), E, 1e-9,
-             {{"Is the energy zero where the rod is level?", E + weight},
+             {{"Is the energy zero hanging? It is zero upright.", E + 2 * weight},
+              {"Is the energy zero where the rod is level?", E + weight},
+              {"Has the height the wrong sign? Below upright it is negative.", kinetic - height},
+              {"Is the mass left out?", E / p.mass},
               {"Is the length not squared? The mass moves at l theta'.", kinetic / p.length + height},
+              {"Has the kinetic energy no length? The mass moves at l theta'.",
+               kinetic / p.length / p.length + height},
+              {"Is the kinetic energy not halved?", 2 * kinetic + height},
               {"Is it the kinetic energy alone?", kinetic},
               {"Is it the potential energy alone?", height},
               {"Is the height l sin(theta)? The angle is that from upright.",
@@ -287,10 +307,16 @@ inline void pumps(rex::grading::Check& check, Student& student, const Pendulum& 
   check.input("a pendulum", {{"m, l, b, g, strongest", numbersOf(p)}, {"gain", gain}, {"x", x}});
   const double swing = 2 * p.mass * p.g * p.length;
   check.near("torque of pumpTorque", student.pumpTorque(p, gain, x), limited(drive + drag), 1e-9,
-             {{"Is theta' left out? Torque and rate have to have the same sign to add energy.",
+             {{"Is the motor stronger than it is? Limit the torque.", drive + drag},
+              {"Does it take energy away where some is missing? Mind the sign.", limited(drag - drive)},
+              {"Is friction left out? It takes energy away, too.", limited(drive)},
+              {"Does friction help here? It has the wrong sign.", limited(drive - drag)},
+              {"Is it theta'^2? Power is torque times theta'.", limited(drive * x[1] + drag)},
+              {"Is theta' left out? Torque and rate have to have the same sign to add energy.",
                limited(-gain * E + drag)},
               {"Is friction added after the limit? The motor has to do that, too.", limited(drive) + drag},
               {"Is the energy zero hanging?", limited(-gain * x[1] * (E + swing) + drag)},
+              {"Is the torque always the strongest?", drive > 0 ? p.strongest : -p.strongest},
               {"Is the gain left out?", limited(-x[1] * E + drag)}});
   check.near("torque of pumpTorque at rest", student.pumpTorque(p, gain, {x[0], 0}), 0, 1e-12);
 }
@@ -434,14 +460,24 @@ inline void swingsUp(rex::grading::Check& check, Student& student, const Pendulu
                 apart.cwiseAbs().maxCoeff() < 1e-5);
   const auto region = check.ask("Is it x^T P x < level, and nothing else, that decides which torque is used?",
                                 isUsed(near(seen) ? pumping(seen) : limited(swing.K.dot(seen))));
-  check.near("states of swungUp", got, wanted, 1e-5,
-             {{"Is the angle brought to -pi ... pi for the level, but not for K?",
-               by([&](auto& x, auto& y) { return near(x) ? limited(swing.K.dot(y)) : pumping(x); })},
-              {"Is it `level` that has to be exceeded? The catch is where V is small.",
-               by([&](auto& x, auto&) { return near(x) ? pumping(x) : limited(swing.K.dot(x)); })},
-              {"Are both torques added in the catch?", by([&](auto& x, auto&) {
-                 return near(x) ? limited(swing.K.dot(x) + pumping(x)) : pumping(x);
-               })}});
+  check.near(
+      "states of swungUp", got, wanted, 1e-5,
+      {{"Is the angle of the catch not brought to -pi ... pi?",
+        by([&](auto&, auto& y) { return near(y) ? limited(swing.K.dot(y)) : pumping(y); })},
+       {"Is the angle brought to -pi ... pi for the level, but not for K?",
+        by([&](auto& x, auto& y) { return near(x) ? limited(swing.K.dot(y)) : pumping(x); })},
+       {"Does it pump only? Where x^T P x < level, u = K x.", by([&](auto& x, auto&) { return pumping(x); })},
+       {"Is it u = K x everywhere?", by([&](auto& x, auto&) { return limited(swing.K.dot(x)); })},
+       {"Is the sign that of u = -K x?",
+        by([&](auto& x, auto&) { return near(x) ? limited(-swing.K.dot(x)) : pumping(x); })},
+       {"Is K x limited to what the motor can?",
+        by([&](auto& x, auto&) { return near(x) ? swing.K.dot(x) : pumping(x); })},
+       {"Is it `level` that has to be exceeded? The catch is where V is small.",
+        by([&](auto& x, auto&) { return near(x) ? pumping(x) : limited(swing.K.dot(x)); })},
+       {"Are both torques added in the catch?",
+        by([&](auto& x, auto&) { return near(x) ? limited(swing.K.dot(x) + pumping(x)) : pumping(x); })},
+       {"Are the steps Euler's? They have to be nextOf().",
+        motionBy(p, start, swing.tau, steps, right, true)}});
 }
 
 /// The slope of the cost by differences, with factors of its terms.
@@ -484,7 +520,11 @@ inline void slopes(rex::grading::Check& check, Student& student, int N) {
       "of a state "
       "back by a step, A or its transpose?");
   check.near("slope of costSlope", student.costSlope(journey, U), wanted, 1e-6 * (1 + wanted.norm()),
-             {{"Is the effort not multiplied by tau?", wanted + (1 / journey.tau - 1) * effort},
+             {{"Is the effort left out, which u costs by itself?", wanted - effort},
+              {"Is it the slope of the effort alone? A torque also moves all later states.", effort},
+              {"Is the cost of the last state left out?", withoutLast},
+              {"Is the cost of the states on the way left out?", wanted - withoutLast + effort},
+              {"Is the effort not multiplied by tau?", wanted + (1 / journey.tau - 1) * effort},
               {"Is the effort's slope not doubled?", wanted - effort / 2},
               {"Is the cost of the last state weighted with tau, like the others?",
                withoutLast + journey.tau * (wanted - withoutLast)}});

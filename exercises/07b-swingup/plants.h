@@ -56,12 +56,28 @@ inline void horizonFits(rex::grading::Check& check, Student& student, const Plan
   check.near("number of gains of gainsOverTime", static_cast<double>(K.size()), steps, 0);
   for (int t = 0; t < steps; ++t) {
     const int left = steps - t;
-    const Eigen::MatrixXd wanted = firstGain(plant, costs, F, left), Bt = plant.B.transpose();
-    check.near(fmt::format("K[{}] of gainsOverTime", t), K[static_cast<std::size_t>(t)], wanted,
-               1e-7 * (1 + wanted.norm()),
-               {{"Is it always the same gain? It depends on the time that is left.",
-                 firstGain(plant, costs, F, steps)},
-                {"Is B^T P B left out? R + B^T P B has to be inverted.",
-                 left > 1 ? wanted : Eigen::MatrixXd(-rex::solveMatrix(costs.R, Bt * F * plant.A))}});
+    const auto gainAfter = [&](const Eigen::MatrixXd& last) { return firstGain(plant, costs, last, 1); };
+    const Eigen::MatrixXd wanted = firstGain(plant, costs, F, left), Bt = plant.B.transpose(), zero = 0 * F;
+    Eigen::MatrixXd idle = F;  // what states cost if nobody controls them
+    for (int k = 1; k < left; ++k) idle = costs.Q + plant.A.transpose() * idle * plant.A;
+    check.near(
+        fmt::format("K[{}] of gainsOverTime", t), K[static_cast<std::size_t>(t)], wanted,
+        1e-7 * (1 + wanted.norm()),
+        {{"Is the last state weighted with Q instead of F?", firstGain(plant, costs, costs.Q, left)},
+         {"Does the last state cost nothing?", firstGain(plant, costs, zero, left)},
+         {"Is the last state charged twice, with F and with Q?", firstGain(plant, costs, F + costs.Q, left)},
+         {"Is Q left out on the way?", firstGain(plant, {zero, costs.R}, F, left)},
+         {"Are the gains in the order of their computation? K[0] is the last of it.",
+          firstGain(plant, costs, F, t + 1)},
+         {"Is it always the same gain? It depends on the time that is left.",
+          firstGain(plant, costs, F, steps)},
+         {"Is it the gain of the step before? The P in K[t] is that after the step.",
+          firstGain(plant, costs, F, left + 1)},
+         {"Is it the cost of states without control that P follows?", gainAfter(idle)},
+         {"Is it -R^-1 B^T P, as in continuous time?",
+          left > 1 ? wanted : Eigen::MatrixXd(-rex::solveMatrix(costs.R, Bt * F))},
+         {"Is B^T P B left out? R + B^T P B has to be inverted.",
+          left > 1 ? wanted : Eigen::MatrixXd(-rex::solveMatrix(costs.R, Bt * F * plant.A))},
+         {"Is the sign that of u = -K x? Here it is u = K x.", -wanted}});
   }
 }

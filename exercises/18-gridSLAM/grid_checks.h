@@ -90,7 +90,15 @@ inline void findsCells(Check& check, Student& student, const Grid& grid, double 
     if (k % 2 == 1)
       p -= beyond * grid.cell * Eigen::Vector2d(1 + check.rng().index(20), check.rng().index(20));
     check.input("a grid and a point", {{"origin", grid.origin}, {"cell", grid.cell}, {"p", p}});
-    const Eigen::Vector2d wanted = ((p - grid.origin) / grid.cell).array().floor();
+    const Eigen::Vector2d share = (p - grid.origin) / grid.cell, wanted = share.array().floor();
+    const auto cut = check.suspect("Is a negative number rounded towards zero? It has to be rounded down.",
+                                   Eigen::Vector2d(share.cast<int>().cast<double>()));
+    const auto near = check.suspect("Is the nearest corner taken? A cell begins at its lower left corner.",
+                                    Eigen::Vector2d(share.array().round()));
+    const auto at = check.suspect("Is the origin of the grid forgotten?",
+                                  Eigen::Vector2d((p / grid.cell).array().floor()));
+    const auto swapped =
+        check.suspect("Are i and j swapped? The first number is along x.", Eigen::Vector2d(wanted.reverse()));
     check.near("cellAt", student.cellAt(grid, p).cast<double>(), wanted, 0);
   }
 }
@@ -148,6 +156,27 @@ inline void updates(Check& check, Student& student, int rays, const CellEvidence
   const Grid got = student.observed(map, pose, scan, evidence);
   const Eigen::MatrixXd wanted = mapAfter(map, pose, scan, evidence).values;
   check.shape("values of observed", got.values, 12, 10);
+  const auto is = [&](const char* question, const Eigen::Vector3d& from, const Reading& reading) {
+    return check.suspect(
+        question, whereClear(mapAfter(map, from, scan, evidence, reading).values, map, pose, scan, evidence));
+  };
+  Scan mirrored = scan;
+  mirrored.angles *= -1;
+  const auto hits = is("Does a ray of maxRange end at a wall? It hit nothing.", pose, {.maxIsHit = true});
+  const auto ignored = is("Are rays of maxRange left out? The cells before their ends are free.", pose,
+                          {.maxIsIgnored = true});
+  const auto each =
+      is("Is something added for each ray? A cell is changed once by a scan.", pose, {.eachRayCounts = true});
+  const auto last =
+      is("Does a ray that passes undo what one that ends there has said?", pose, {.lastRayCounts = true});
+  const auto unbounded = is("Are log odds not limited?", pose, {.isBounded = false});
+  const auto forgets = is("Is the map before the scan forgotten?", pose, {.isAdded = false});
+  const auto unturned = is("Is the heading of the robot forgotten?", {pose[0], pose[1], 0}, {});
+  const auto turned = is("Is the heading of the robot subtracted?", {pose[0], pose[1], -pose[2]}, {});
+  const auto mirror =
+      check.suspect("Are angles of rays subtracted from the heading?",
+                    whereClear(mapAfter(map, pose, mirrored, evidence).values, map, pose, scan, evidence));
+  const auto nothing = check.suspect("Is the map never changed?", map.values);
   const Eigen::MatrixXd compared = whereClear(got.values, map, pose, scan, evidence);
   const auto shown =
       check.show([&] { return gridsOf(map, compared, wanted, "log odds", {raysOf(pose, scan)}); });
@@ -163,6 +192,32 @@ inline void measuresDistances(Check& check, Student& student, int width, int hei
   const Grid got = student.wallDistances(map, reach);
   const Eigen::MatrixXd wanted = distancesTo(map, reach).values;
   check.shape("values of wallDistances", got.values, width, height);
+  const auto by = [&](const char* question, const CellDistance& apart) {
+    return check.suspect(question, distancesTo(map, reach, apart).values);
+  };
+  Grid single = map;
+  single.cell = 1;
+  const auto endless = check.suspect("Is `reach` forgotten?", distancesTo(map, 1e9).values);
+  const auto cells =
+      check.suspect("Are distances counted in cells?", distancesTo(single, reach / map.cell).values);
+  const auto cellsAtMost =
+      check.suspect("Are distances counted in cells?", distancesTo(single, reach).values);
+  const auto blocks =
+      by("Is the distance along x added to that along y?", [](double x, double y) { return x + y; });
+  const auto king = by("Is it the larger of the distances along x and y?",
+                       [](double x, double y) { return std::max(x, y); });
+  const auto squares = by("Is the square root missing?", [](double x, double y) { return x * x + y * y; });
+  const auto unknown =
+      check.suspect("Do unknown cells count as walls? A cell is occupied if its log odds are above 0.",
+                    distancesTo(
+                        map, reach, [](double x, double y) { return std::sqrt(x * x + y * y); },
+                        [](double odds) { return odds >= 0; })
+                        .values);
+  const auto free = check.suspect("Do free cells count as walls?",
+                                  distancesTo(
+                                      map, reach, [](double x, double y) { return std::sqrt(x * x + y * y); },
+                                      [](double odds) { return odds < 0; })
+                                      .values);
   const auto shown = check.show([&] { return gridsOf(map, got.values, wanted, "distance [m]"); });
   check.near("values of wallDistances", got.values, wanted, 1e-9, "m");
 }
@@ -174,7 +229,18 @@ inline void interpolates(Check& check, Student& student, const Grid& grid) {
     if (k == 5) p[1] = grid.origin[1] + grid.cell * (static_cast<double>(grid.values.cols()) + 1.4);
     check.input("a grid and a point",
                 {{"origin", grid.origin}, {"cell", grid.cell}, {"values", grid.values}, {"p", p}});
-    check.near("valueAt", student.valueAt(grid, p), between(grid, p), 1e-9);
+    const Eigen::Vector2d share = (p - grid.origin) / grid.cell;
+    const double got = student.valueAt(grid, p), wanted = between(grid, p);
+    const auto inside = [](double i, Eigen::Index size) {
+      return std::clamp(static_cast<Eigen::Index>(std::floor(i)), Eigen::Index{0}, size - 1);
+    };
+    const auto one = [](double value) -> Eigen::MatrixXd { return Eigen::MatrixXd::Constant(1, 1, value); };
+    const auto step = check.suspect(
+        "Is it the value of the cell? Between the centres of cells it changes bilinearly.",
+        one(grid.values(inside(share[0], grid.values.rows()), inside(share[1], grid.values.cols()))));
+    const auto corner = check.suspect("Are values at the corners of cells? They are at their centres.",
+                                      one(between(grid, p, 0)));
+    check.near("valueAt", one(got), one(wanted), 1e-9);
   }
 }
 
@@ -190,6 +256,40 @@ inline void rates(Check& check, Student& student, int rays) {
   describe(check, distances, pose, scan);
   const double got = student.fit(distances, pose, scan, deviation),
                wanted = fitOf(distances, pose, scan, deviation);
+  const auto one = [](double value) -> Eigen::MatrixXd { return Eigen::MatrixXd::Constant(1, 1, value); };
+  Scan all = scan, cut = scan, mirrored = scan, degrees = scan;
+  degrees.angles *= kTurn / 360;
+  all.maxRange = cut.maxRange = 10 * scan.maxRange;
+  cut.ranges = cut.ranges.cwiseMin(scan.maxRange);
+  mirrored.angles *= -1;
+  double sum = 0, linear = 0;
+  int hits = 0;
+  for (Eigen::Index k = 0; k < scan.ranges.size(); ++k) {
+    if (scan.ranges[k] >= scan.maxRange) continue;
+    const double d = between(distances, endOf(pose, scan, k));
+    sum += d * d;
+    linear += d;
+    ++hits;
+  }
+  const auto max = check.suspect("Do rays count that hit nothing? They end at no wall.",
+                                 one(fitOf(distances, pose, all, deviation)));
+  const auto maxCut = check.suspect("Do rays count that hit nothing? They end at no wall.",
+                                    one(fitOf(distances, pose, cut, deviation)));
+  const auto sign = check.suspect("Is it the more likely, the farther rays end from walls?", one(-wanted));
+  const auto half = check.suspect("Is the factor 2 missing?", one(2 * wanted));
+  const auto square = check.suspect("Is `deviation` not squared?", one(-sum / (2 * deviation)));
+  const auto flat = check.suspect("Are distances not squared?", one(-linear / (2 * deviation * deviation)));
+  const auto mean = check.suspect("Is it the mean over all rays? It is their sum.", one(wanted / hits));
+  const auto meanOfAll = check.suspect("Is it the mean over all rays? It is their sum.", one(wanted / rays));
+  const auto converted =
+      check.suspect("Are angles converted from degrees? They are radians.",
+                    one(fitOf(distances, {pose[0], pose[1], pose[2] * kTurn / 360}, degrees, deviation)));
+  const auto unturned = check.suspect("Is the heading of the robot forgotten?",
+                                      one(fitOf(distances, {pose[0], pose[1], 0}, scan, deviation)));
+  const auto turned = check.suspect("Is the heading of the robot subtracted?",
+                                    one(fitOf(distances, {pose[0], pose[1], -pose[2]}, scan, deviation)));
+  const auto mirror = check.suspect("Are angles of rays subtracted from the heading?",
+                                    one(fitOf(distances, pose, mirrored, deviation)));
   const auto shown = check.show([&] {
     rex::Figure figure = gridFigure("distances, and where rays end that hit something", distances, 0,
                                     3 * distances.cell, "distance [m]");
@@ -201,5 +301,5 @@ inline void rates(Check& check, Student& student, int rays) {
     figure.series = {ends, rex::grading::wrongPoint("robot", pose[0], pose[1])};
     return Evidence{.figures = {figure}};
   });
-  check.near("fit", got, wanted, 1e-9 * (1 + std::abs(wanted)));
+  check.near("fit", one(got), one(wanted), 1e-9 * (1 + std::abs(wanted)));
 }

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "buildings.h"
 #include "estimation/occupancy_map.h"
 #include "interface.h"
 
-// What is right for a grid, by other ways than those that a student takes.
+// What is right for a grid, by other ways than those that a student takes, and what usual mistakes make of
+// it.
 
 /// Rounded to two digits, so that a case can be computed by hand.
 inline double rounded(double x) { return std::round(100 * x) / 100; }
@@ -42,24 +44,40 @@ inline Eigen::Vector2d endOf(const Eigen::Vector3d& pose, const Scan& scan, Eige
          std::min(scan.ranges[k], scan.maxRange) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
 
-/// Pieces of rays shorter than `least` do not count.
+/// What a scan is taken for: the right thing, or a mistake.
+struct Reading {
+  bool maxIsHit = false;       ///< a ray that hits nothing ends at a wall
+  bool maxIsIgnored = false;   ///< ... or says nothing
+  bool eachRayCounts = false;  ///< a cell gets what each ray says
+  bool lastRayCounts = false;  ///< a cell gets what the last ray says
+  bool isBounded = true;
+  bool isAdded = true;
+  double least = 0;  ///< shorter pieces of rays do not count
+};
+
 inline Grid mapAfter(const Grid& map, const Eigen::Vector3d& pose, const Scan& scan,
-                     const CellEvidence& evidence, double least = 0) {
+                     const CellEvidence& evidence, const Reading& reading = {}) {
   Grid change = map;
   change.values.setZero();
   for (Eigen::Index k = 0; k < scan.ranges.size(); ++k) {
-    const bool isHit = scan.ranges[k] < scan.maxRange;
+    const bool isMax = scan.ranges[k] >= scan.maxRange, isHit = !isMax || reading.maxIsHit;
+    if (isMax && reading.maxIsIgnored) continue;
     const std::vector<Piece> pieces = piecesOf(map, pose.head<2>(), endOf(pose, scan, k));
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const int x = pieces[i].cell[0], y = pieces[i].cell[1];
       if (x < 0 || y < 0 || x >= map.values.rows() || y >= map.values.cols()) continue;
       const bool ends = isHit && i + 1 == pieces.size();
-      if (!ends && pieces[i].length < least) continue;
+      if (!ends && pieces[i].length < reading.least) continue;
       double& value = change.values(x, y);
-      if (ends || value == 0) value = ends ? evidence.hit : evidence.miss;
+      const double says = ends ? evidence.hit : evidence.miss;
+      if (reading.eachRayCounts)
+        value += says;
+      else if (reading.lastRayCounts || ends || value == 0)
+        value = says;
     }
   }
-  change.values = (map.values + change.values).cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
+  if (reading.isAdded) change.values += map.values;
+  if (reading.isBounded) change.values = change.values.cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
   return change;
 }
 
@@ -67,35 +85,45 @@ inline Grid mapAfter(const Grid& map, const Eigen::Vector3d& pose, const Scan& s
 inline Eigen::MatrixXd whereClear(const Eigen::MatrixXd& got, const Grid& map, const Eigen::Vector3d& pose,
                                   const Scan& scan, const CellEvidence& evidence) {
   const Eigen::MatrixXd all = mapAfter(map, pose, scan, evidence).values,
-                        clear = mapAfter(map, pose, scan, evidence, .02).values;
+                        clear = mapAfter(map, pose, scan, evidence, {.least = .02}).values;
   if (got.rows() != all.rows() || got.cols() != all.cols()) return got;
   return (all.array() == clear.array()).select(got, all);
 }
 
-/// By all pairs of cells.
-inline Grid distancesTo(const Grid& map, double reach) {
+/// The distance of two cells that are x and y cells apart, at least the larger of both.
+using CellDistance = std::function<double(double x, double y)>;
+
+/// By all pairs of cells. `isWall` says which log odds are a wall.
+inline Grid distancesTo(
+    const Grid& map, double reach,
+    const CellDistance& apart = [](double x, double y) { return std::sqrt(x * x + y * y); },
+    const std::function<bool(double)>& isWall = [](double odds) { return odds > 0; }) {
   Grid distances = map;
   std::vector<Eigen::Vector2d> walls;
   for (Eigen::Index i = 0; i < map.values.rows(); ++i)
     for (Eigen::Index j = 0; j < map.values.cols(); ++j)
-      if (map.values(i, j) > 0) walls.emplace_back(i, j);
+      if (isWall(map.values(i, j))) walls.emplace_back(i, j);
   for (Eigen::Index i = 0; i < map.values.rows(); ++i)
     for (Eigen::Index j = 0; j < map.values.cols(); ++j) {
       double& nearest = distances.values(i, j) = reach;
-      for (const Eigen::Vector2d& wall : walls)
-        nearest = std::min(nearest, map.cell * (wall - Eigen::Vector2d(i, j)).norm());
+      for (const Eigen::Vector2d& wall : walls) {
+        const double x = std::abs(wall[0] - static_cast<double>(i)),
+                     y = std::abs(wall[1] - static_cast<double>(j));
+        if (map.cell * std::max(x, y) < reach) nearest = std::min(nearest, map.cell * apart(x, y));
+      }
     }
   return distances;
 }
 
 /// A sum of tents, each as high as its cell, with its foot at the neighbours.
-inline double between(const Grid& grid, const Eigen::Vector2d& p) {
+inline double between(const Grid& grid, const Eigen::Vector2d& p, double half = .5) {
   double sum = 0;
   const auto cells = [&](int k) {
     return static_cast<double>(k == 0 ? grid.values.rows() : grid.values.cols());
   };
   Eigen::Vector2d at;
-  for (int k = 0; k < 2; ++k) at[k] = std::clamp((p[k] - grid.origin[k]) / grid.cell - .5, 0., cells(k) - 1);
+  for (int k = 0; k < 2; ++k)
+    at[k] = std::clamp((p[k] - grid.origin[k]) / grid.cell - half, 0., cells(k) - 1);
   for (int i = static_cast<int>(at[0]); i <= static_cast<int>(std::ceil(at[0])); ++i)
     for (int j = static_cast<int>(at[1]); j <= static_cast<int>(std::ceil(at[1])); ++j)
       sum += grid.values(i, j) * (1 - std::abs(at[0] - i)) * (1 - std::abs(at[1] - j));

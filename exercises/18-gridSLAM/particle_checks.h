@@ -110,8 +110,21 @@ inline void weighs(Check& check, Student& student, double offset) {
   check.input("particles", {{"log weights", logs}});
   const Eigen::VectorXd got = student.weightsOf(particles);
   check.shape("weightsOf", got, 6, 1);
+  const auto plain = check.suspect("Are these the logarithms?", logs);
+  const auto shares = check.suspect("Are logarithms divided by their sum?", logs / logs.sum());
+  const auto raw = check.suspect("Do the weights not sum to one?", logs.array().exp().matrix());
+  const auto zero = check.suspect("Is exp() of each logarithm zero? Only their differences matter.",
+                                  Eigen::VectorXd::Constant(6, 1. / 6));
+  const auto high =
+      check.suspect("Do the weights not sum to one?", (logs.array() - logs.maxCoeff()).exp().matrix());
   check.near("weightsOf", got, wanted, 1e-9);
-  check.near("effectiveSize", student.effectiveSize(wanted), 1 / wanted.squaredNorm(), 1e-9);
+  const double size = student.effectiveSize(wanted);
+  const auto squares = check.ask("Is it the sum of the squares? Wanted is one over it.",
+                                 std::abs(size - wanted.squaredNorm()) < 1e-6);
+  const auto root = check.ask("Is a root taken?", std::abs(size - 1 / wanted.norm()) < 1e-6);
+  const auto mean =
+      check.ask("Is it one over the mean of the squares?", std::abs(size - 6 / wanted.squaredNorm()) < 1e-6);
+  check.near("effectiveSize", size, 1 / wanted.squaredNorm(), 1e-9);
 }
 
 inline void weighsParticles(Check& check, Student& student) {
@@ -213,30 +226,26 @@ inline void steps(Check& check, const Particle& before, const Particle& after, c
   }
   const double says = rate(pose) / settings.temper;
   const Grid now = distancesTo(mapAfter(before.map, pose, sight.scan, settings.evidence), settings.reach);
-  const double tolerance = 1e-6 * (1 + std::abs(says));
+  const auto one = [](double value) -> Eigen::MatrixXd { return Eigen::MatrixXd::Constant(1, 1, value); };
   {
-    // The pose is the student's own, and so is what the weight should be.
-    const auto rises = [&](double by) {
-      return std::abs(after.logWeight - before.logWeight - by) < tolerance;
-    };
-    const auto kept = check.ask("Does the scan not change the weight?", rises(0));
-    const auto fresh = check.ask("Is the log weight from before forgotten?", rises(says - before.logWeight));
-    const auto hot = check.ask("Is `temper` forgotten?", rises(says * settings.temper));
-    const auto cold =
-        check.ask("Is it multiplied by `temper`?", rises(says * settings.temper * settings.temper));
-    const auto blind =
-        check.ask("Is the scan in the map already that says how well it fits? It would always fit.",
-                  rises(fitOf(now, pose, sight.scan, settings.deviation) / settings.temper));
-    const auto shared =
-        check.ask("Is the map of another particle used? Each has its own.",
-                  rises(fitOf(distancesTo(other.map, settings.reach), pose, sight.scan, settings.deviation) /
-                        settings.temper));
-    check.near("log weight after slamStep", after.logWeight, before.logWeight + says, tolerance);
+    const auto kept = check.suspect("Does the scan not change the weight?", one(before.logWeight));
+    const auto fresh = check.suspect("Is the log weight from before forgotten?", one(says));
+    const auto hot = check.suspect("Is `temper` forgotten?", one(before.logWeight + says * settings.temper));
+    const auto cold = check.suspect("Is it multiplied by `temper`?",
+                                    one(before.logWeight + says * settings.temper * settings.temper));
+    const auto blind = check.suspect(
+        "Is the scan in the map already that says how well it fits? It would always fit.",
+        one(before.logWeight + fitOf(now, pose, sight.scan, settings.deviation) / settings.temper));
+    const auto shared = check.suspect("Is the map of another particle used? Each has its own.",
+                                      one(before.logWeight + fitOf(distancesTo(other.map, settings.reach),
+                                                                   pose, sight.scan, settings.deviation) /
+                                                                 settings.temper));
+    check.near("log weight after slamStep", one(after.logWeight), one(before.logWeight + says),
+               1e-6 * (1 + std::abs(says)));
   }
   const Eigen::MatrixXd wanted = mapAfter(before.map, pose, sight.scan, settings.evidence).values,
                         got = whereClear(after.map.values, before.map, pose, sight.scan, settings.evidence);
-  const auto unchanged =
-      check.ask("Is the scan never added to the map?", (got - before.map.values).isZero(1e-9));
+  const auto unchanged = check.suspect("Is the scan never added to the map?", before.map.values);
   const auto guessed = check.ask(
       "Is the scan added at another pose than the last one of the path, or to the "
       "map of another particle?");

@@ -3,30 +3,20 @@
 
 // <variant nearest_corner> caught by: rays
 // mistake: rounds to the nearest corner of a cell.
-// ask: Is the nearest corner taken? A cell begins at its lower left corner.
 // <solution cellAt>
 return {static_cast<int>(std::round((p.x() - grid.origin.x()) / grid.cell)),
         static_cast<int>(std::round((p.y() - grid.origin.y()) / grid.cell))};
 
 // <variant no_origin> caught by: rays
 // mistake: the grid begins at (0, 0).
-// ask: Is the origin of the grid forgotten?
 // <solution cellAt>
 return {static_cast<int>(std::floor(p.x() / grid.cell)), static_cast<int>(std::floor(p.y() / grid.cell))};
 
 // <variant rounds_towards_zero> caught by: rays, more-rays
 // mistake: a cast to int, which is one cell too far left of the origin.
-// ask: Is a negative number rounded towards zero? It has to be rounded down.
 // <solution cellAt>
 return {static_cast<int>((p.x() - grid.origin.x()) / grid.cell),
         static_cast<int>((p.y() - grid.origin.y()) / grid.cell)};
-
-// <variant y_before_x> caught by: rays
-// mistake: the first number is that along y.
-// ask: Are i and j swapped? The first number is along x.
-// <solution cellAt>
-return {static_cast<int>(std::floor((p.y() - grid.origin.y()) / grid.cell)),
-        static_cast<int>(std::floor((p.x() - grid.origin.x()) / grid.cell))};
 
 // <variant bresenham> caught by: rays, more-rays
 // shown by: rays
@@ -60,9 +50,8 @@ for (int k = 1; k <= count; ++k) {
 }
 return cells;
 
-// <variant adds_for_each_ray> caught by: update, more-updates
+// <variant adds_for_each_ray> caught by: more-updates
 // mistake: near the robot each ray adds its own.
-// ask: Is something added for each ray? A cell is changed once by a scan.
 // <solution observed>
 // in place of: if (isHit && i + 1 == cells.size()) ... change(x, y) = evidence.miss;
 if (isHit && i + 1 == cells.size())
@@ -85,40 +74,12 @@ for (int i = 0; i < cells.width(); ++i)
 
 // <variant clockwise> caught by: update, more-updates
 // mistake: angles of rays grow to the right.
-// ask: Are angles of rays subtracted from the heading?
 // <solution observed>
 // in place of: const double direction = pose[2] + scan.angles[ray];
 const double direction = pose[2] - scan.angles[ray];
 
-// <variant heading_left_out> caught by: update, more-updates
-// mistake: the robot looks along x.
-// ask: Is the heading of the robot forgotten?
-// <solution observed>
-// in place of: const double direction = pose[2] + scan.angles[ray];
-const double direction = scan.angles[ray];
-
-// <variant heading_reversed> caught by: update, more-updates
-// mistake: the heading is subtracted.
-// ask: Is the heading of the robot subtracted?
-// <solution observed>
-// in place of: const double direction = pose[2] + scan.angles[ray];
-const double direction = scan.angles[ray] - pose[2];
-
-// <variant map_untouched> caught by: update, more-updates
-// mistake: nothing is written into the map.
-// ask: Is the map never changed?
-// <solution observed>
-
-// <variant map_from_this_scan> caught by: update, more-updates
-// mistake: the map before the scan is left out.
-// ask: Is the map before the scan forgotten?
-// <solution observed>
-// in place of: after.values = (map.values + change).cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
-after.values = change.cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
-
 // <variant ignores_maximum> caught by: update, more-updates
 // mistake: rays that hit nothing are left out.
-// ask: Are rays of maxRange left out? The cells before their ends are free.
 // <solution observed>
 // in place of: const double direction = pose[2] + scan.angles[ray];
 if (!isHit) continue;
@@ -126,14 +87,12 @@ const double direction = pose[2] + scan.angles[ray];
 
 // <variant never_limited> caught by: update, more-updates
 // mistake: log odds grow without a limit.
-// ask: Are log odds not limited?
 // <solution observed>
 // in place of: after.values = (map.values + change).cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
 after.values = (map.values + change);
 
 // <variant the_last_ray_wins> caught by: update, more-updates
 // mistake: a ray that passes clears a cell in which another one ended.
-// ask: Does a ray that passes undo what one that ends there has said?
 // <solution observed>
 // in place of: if (isHit && i + 1 == cells.size()) ... change(x, y) = evidence.miss;
 if (isHit && i + 1 == cells.size())
@@ -144,7 +103,6 @@ else
 // <variant walls_at_maximum> caught by: update, more-updates
 // shown by: update
 // mistake: a ray that hits nothing ends at a wall.
-// ask: Does a ray of maxRange end at a wall? It hit nothing.
 // <solution observed>
 // in place of: const bool isHit = scan.ranges[ray] < scan.maxRange;
 const bool isHit = scan.ranges[ray] > 0;
@@ -152,7 +110,6 @@ const bool isHit = scan.ranges[ray] > 0;
 // <variant blocks> caught by: distances, more-fits
 // shown by: distances
 // mistake: the way along x and then along y.
-// ask: Is the distance along x added to that along y?
 // <solution wallDistances>
 const Eigen::Index width = map.values.rows(), height = map.values.cols();
 const auto around = static_cast<Eigen::Index>(std::ceil(reach / map.cell));
@@ -167,7 +124,6 @@ for (Eigen::Index j = 0; j < height; ++j)
 
 // <variant in_cells> caught by: distances, more-fits
 // mistake: distances are counted in cells.
-// ask: Are distances counted in cells?
 // <solution wallDistances>
 const Eigen::Index width = map.values.rows(), height = map.values.cols();
 const auto around = static_cast<Eigen::Index>(std::ceil(reach / map.cell));
@@ -180,39 +136,14 @@ for (Eigen::Index j = 0; j < height; ++j)
             distances.values(x, y), std::sqrt(static_cast<double>((x - i) * (x - i) + (y - j) * (y - j))));
   }
 
-// <variant larger_of_both> caught by: distances, more-fits
-// mistake: the larger of the distances along x and along y.
-// ask: Is it the larger of the distances along x and y?
-// <solution wallDistances>
-// in place of: distances.values(x, y) = ... map.cell * std::sqrt(
-distances.values(x, y) = std::min(distances.values(x, y),
-                                  map.cell* static_cast<double>(std::max(std::abs(x - i), std::abs(y - j))));
-
-// <variant root_forgotten> caught by: distances, more-fits
-// mistake: squares of distances, in cells, times the side of a cell.
-// ask: Is the square root missing?
-// <solution wallDistances>
-// in place of: distances.values(x, y) = ... map.cell * std::sqrt(
-distances.values(x, y) = std::min(distances.values(x, y),
-                                  map.cell* static_cast<double>((x - i) * (x - i) + (y - j) * (y - j)));
-
-// <variant free_is_wall> caught by: distances, more-fits
-// mistake: negative log odds are occupied.
-// ask: Do free cells count as walls?
-// <solution wallDistances>
-// in place of: if (map.values(i, j) <= 0) continue;
-if (map.values(i, j) >= 0) continue;
-
 // <variant unknown_is_wall> caught by: distances, more-fits
 // mistake: unknown cells are occupied.
-// ask: Do unknown cells count as walls? A cell is occupied if its log odds are above 0.
 // <solution wallDistances>
 // in place of: if (map.values(i, j) <= 0) continue;
 if (map.values(i, j) < 0) continue;
 
 // <variant value_of_the_cell> caught by: fits, more-fits
 // mistake: the value of the cell, in steps.
-// ask: Is it the value of the cell? Between the centres of cells it changes bilinearly.
 // <solution valueAt>
 const Eigen::Vector2i cell = cellAt(grid, p);
 return grid.values(std::clamp<Eigen::Index>(cell[0], 0, grid.values.rows() - 1),
@@ -220,80 +151,32 @@ return grid.values(std::clamp<Eigen::Index>(cell[0], 0, grid.values.rows() - 1),
 
 // <variant values_at_corners> caught by: fits, more-fits
 // mistake: values belong to the lower left corners of cells.
-// ask: Are values at the corners of cells? They are at their centres.
 // <solution valueAt>
 // in place of: const Eigen::Vector2d share = ((p - grid.origin) / grid.cell).array() - .5;
 const Eigen::Vector2d share = ((p - grid.origin) / grid.cell).array() - 0.;
 
 // <variant counts_maximum> caught by: fits, more-fits
 // mistake: rays that hit nothing should end at walls as well.
-// ask: Do rays count that hit nothing? They end at no wall.
 // <solution fit>
 // in place of: if (scan.ranges[ray] >= scan.maxRange) continue;
 
 // <variant linear_cost> caught by: fits
 // mistake: distances are not squared.
-// ask: Are distances not squared?
 // <solution fit>
 // in place of: sum += d * d;
 sum += d;
 
 // <variant angles_in_degrees> caught by: fits
 // mistake: converts angles, as if they were degrees.
-// ask: Are angles converted from degrees? They are radians.
 // <solution fit>
 // in place of: const double direction = pose[2] + scan.angles[ray];
 const double direction = (pose[2] + scan.angles[ray]) * std::acos(-1) / 180;
 
 // <variant seen_by_the_robot> caught by: fits
 // mistake: the heading is subtracted.
-// ask: Is the heading of the robot subtracted?
 // <solution fit>
 // in place of: const double direction = pose[2] + scan.angles[ray];
 const double direction = scan.angles[ray] - pose[2];
-
-// <variant heading_unused> caught by: fits
-// mistake: the robot looks along x.
-// ask: Is the heading of the robot forgotten?
-// <solution fit>
-// in place of: const double direction = pose[2] + scan.angles[ray];
-const double direction = scan.angles[ray];
-
-// <variant rays_clockwise> caught by: fits
-// mistake: angles of rays grow to the right.
-// ask: Are angles of rays subtracted from the heading?
-// <solution fit>
-// in place of: const double direction = pose[2] + scan.angles[ray];
-const double direction = pose[2] - scan.angles[ray];
-
-// <variant far_is_likely> caught by: fits
-// mistake: the sign of the logarithm.
-// ask: Is it the more likely, the farther rays end from walls?
-// <solution fit>
-// in place of: return -sum / (2 * deviation * deviation);
-return sum / (2 * deviation * deviation);
-
-// <variant fit_without_two> caught by: fits
-// mistake: the square divided by the variance only.
-// ask: Is the factor 2 missing?
-// <solution fit>
-// in place of: return -sum / (2 * deviation * deviation);
-return -sum / (deviation * deviation);
-
-// <variant deviation_not_squared> caught by: fits
-// mistake: takes the deviation for the variance.
-// ask: Is `deviation` not squared?
-// <solution fit>
-// in place of: return -sum / (2 * deviation * deviation);
-return -sum / (2 * deviation);
-
-// <variant mean_of_rays> caught by: fits
-// mistake: divides by the number of rays that hit something.
-// ask: Is it the mean over all rays? It is their sum.
-// <solution fit>
-// in place of: return -sum / (2 * deviation * deviation);
-return -sum / (2 * deviation * deviation) /
-       static_cast<double>((scan.ranges.array() < scan.maxRange).count());
 
 // <variant leaves_the_window> caught by: match, more-matches
 // mistake: climbs on beyond the window.
@@ -407,53 +290,19 @@ for (int i = 0; i < 3; ++i) way[i] += deviations[i] * deviations[i] * rng.normal
 
 // <variant not_normalised> caught by: weights
 // mistake: the sum is not one.
-// ask: Do the weights not sum to one?
 // <solution weightsOf>
 // in place of: weights /= weights.sum();
 
 // <variant zero_by_zero> caught by: weights
 // mistake: exp() of large negative numbers is zero for all.
-// ask: Is exp() of each logarithm zero? Only their differences matter.
 // <solution weightsOf>
 // in place of: weights = (weights.array() - weights.maxCoeff()).exp().eval();
 weights = weights.array().exp().eval();
 
 // <variant sum_of_squares> caught by: weights
 // mistake: the sum of the squares, not one over it.
-// ask: Is it the sum of the squares? Wanted is one over it.
 // <solution effectiveSize>
 return weights.squaredNorm();
-
-// <variant logarithms> caught by: weights
-// mistake: returns the logarithms.
-// ask: Are these the logarithms?
-// <solution weightsOf>
-// in place of: weights = (weights.array() - weights.maxCoeff()).exp().eval(); ... weights /=
-
-// <variant shares_of_logarithms> caught by: weights
-// mistake: divides the logarithms by their sum.
-// ask: Are logarithms divided by their sum?
-// <solution weightsOf>
-// in place of: weights = (weights.array() - weights.maxCoeff()).exp().eval();
-
-// <variant weights_of_any_sum> caught by: weights
-// mistake: exp() of the logarithms, and nothing else.
-// ask: Do the weights not sum to one?
-// <solution weightsOf>
-// in place of: weights = (weights.array() - weights.maxCoeff()).exp().eval(); ... weights /=
-weights = weights.array().exp().eval();
-
-// <variant root_of_the_size> caught by: weights
-// mistake: one over the norm.
-// ask: Is a root taken?
-// <solution effectiveSize>
-return 1 / weights.norm();
-
-// <variant mean_of_squares> caught by: weights
-// mistake: one over the mean of the squares.
-// ask: Is it one over the mean of the squares?
-// <solution effectiveSize>
-return static_cast<double>(weights.size()) / weights.squaredNorm();
 
 // <variant each_by_itself> caught by: copies, more-copies
 // mistake: each copy is drawn by itself.
